@@ -1,0 +1,39 @@
+# Everything comes from Debian 12; `./dev packages` installs it.
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(deal.II 9.4 REQUIRED HINTS /usr)
+# Debian's deal.II brings the MPI HDF5, VTK the serial one: the store links the serial one by name and nothing else.
+find_path(HDF5_SERIAL_INCLUDE_DIR hdf5.h PATHS /usr/include/hdf5/serial NO_DEFAULT_PATH REQUIRED)
+find_library(HDF5_SERIAL_LIBRARY hdf5_serial REQUIRED)
+find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
+find_library(GMSH_LIBRARY gmsh REQUIRED)
+find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+find_library(UMFPACK_LIBRARY umfpack REQUIRED)
+find_library(OPENBLAS_LIBRARY openblas REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel FiltersCore IOXML IOImage FiltersGeneral FiltersSources
+             RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation InteractionStyle)
+
+add_library(gmsh_api INTERFACE)
+target_include_directories(gmsh_api SYSTEM INTERFACE ${GMSH_INCLUDE_DIR})
+target_link_libraries(gmsh_api INTERFACE ${GMSH_LIBRARY})
+
+add_library(hdf5_serial INTERFACE)
+target_include_directories(hdf5_serial SYSTEM INTERFACE ${HDF5_SERIAL_INCLUDE_DIR})
+target_link_libraries(hdf5_serial INTERFACE ${HDF5_SERIAL_LIBRARY})
+
+add_library(suitesparse INTERFACE)
+target_include_directories(suitesparse SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
+target_link_libraries(suitesparse INTERFACE ${CHOLMOD_LIBRARY} ${UMFPACK_LIBRARY} ${OPENBLAS_LIBRARY})
+
+if(BUILD_TESTING)
+  find_package(GTest REQUIRED)
+endif()
+if(PELVIREG_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()

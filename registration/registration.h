@@ -1,0 +1,131 @@
+// The system under test: real-time corotational registration driven by the outlines in one image plane.
+// Plain arrays in and out. Units: mm, N, MPa, s, t. Paper: sections 5.1 and 5.2.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pelvireg::registration
+{
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using Tets = Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor>;
+using Hexes = Eigen::Matrix<int, Eigen::Dynamic, 8, Eigen::RowMajor>;
+
+/// One deformable body: tetrahedra or hexahedra, never both.
+struct Body
+{
+  std::string name;
+  Points rest_positions;         ///< n x 3, mm
+  Tets tets;                     ///< positive volume
+  Hexes hexes;                   ///< VTK order
+  double youngs_modulus = 0;     ///< MPa
+  double poisson_ratio = 0.45;
+  double density = 1.05e-9;      ///< t/mm^3
+  std::vector<int> fixed_nodes;  ///< 0-based
+  Triangles outer_triangles;     ///< closed, outward; empty for a body that is never matched or attached to
+  /// One flag a triangle: control points may be matched to it and attachments may hold on it. Caps are not.
+  std::vector<char> is_wall;
+};
+
+/// Nodes of one body held on the outer surface of another: bilateral, barycentric, 3 rows a node.
+struct Attachment
+{
+  std::string name;
+  int body_a = 0;
+  std::vector<int> nodes_a;
+  int body_b = 0;
+  double compliance = 0; ///< mm/N, per row
+};
+
+struct Model
+{
+  std::vector<Body> bodies;
+  std::vector<Attachment> attachments;
+};
+
+/// Control points of one organ in the image plane.
+struct OutlineObservation
+{
+  int body = 0;
+  Points points;  ///< k x 3, mm
+  Points normals; ///< k x 3, unit, in the plane, outward
+};
+
+/// One dynamic image: the plane and the outlines seen in it.
+struct Observation
+{
+  Eigen::Vector3d plane_origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d plane_normal = Eigen::Vector3d::UnitX(); ///< unit
+  std::vector<OutlineObservation> outlines;
+};
+
+struct Options
+{
+  double time_step = 0.02;             ///< h of equation 8, s, > 0
+  bool use_attachments = true;         ///< anatomical constraints chi and the bodies that only serve them
+  double max_match_distance = 30;      ///< mm: a control point whose nearest compatible triangle is farther is refused
+  double min_normal_agreement = 0.5;   ///< least cosine between the contour's and the triangle's in-plane normal
+  double sliding_compliance = 0;       ///< mm/N, per sliding row
+  double attachment_compliance = 0;    ///< mm/N, per attachment row (added to Attachment::compliance)
+  int max_sweeps = 500;
+  double tolerance_mm = 1e-6;          ///< the constraint solve stops when the largest change of a row's gap is below
+  int n_threads = 1;                   ///< results are bit-identical for every value
+
+  /// All problems as sentences; empty when the options are usable.
+  std::vector<std::string> violations() const;
+};
+
+enum class StepStatus
+{
+  ok,
+  no_control_points,   ///< nothing to drive the step: positions unchanged
+  not_finite,          ///< NaN in the observation or the solution: positions unchanged
+  factorisation_failed ///< positions unchanged
+};
+
+/// A sentence a status, for files and tables.
+std::string to_string(StepStatus status);
+
+/// What one step says of itself. Residuals are measured after the step on a fresh matching.
+struct StepSummary
+{
+  StepStatus status = StepStatus::ok;
+  int offered_control_points = 0;
+  int accepted_control_points = 0;
+  double mean_in_plane_residual = 0; ///< mm, over the accepted control points
+  double max_in_plane_residual = 0;  ///< mm
+  double attachment_residual = 0;    ///< mm, largest norm over attached nodes
+  double out_of_plane_force = 0;     ///< N, largest |(H^T lambda) . plane normal| of a node over the sliding rows
+  double in_plane_force = 0;         ///< N, largest in-plane norm of the same
+  int sweeps = 0;
+};
+
+/// The registration. Not copyable; movable. prepare() allocates, update() does not in the steady state.
+class Registration
+{
+public:
+  Registration();
+  ~Registration();
+  Registration(Registration &&) noexcept;
+  Registration &operator=(Registration &&) noexcept;
+
+  /// Check the model, build matrices and symbolic factors. Throws std::invalid_argument with one clear sentence for
+  /// bad options, an inverted element, an index out of range or an open outer surface.
+  void prepare(const Model &model, const Options &options);
+
+  /// One simulation step (paper, equations 7 to 10). A numerical failure is a status, never an exception; the
+  /// positions keep the last valid state.
+  StepSummary update(const Observation &observation);
+
+  /// Current positions of a body, n x 3, mm.
+  const Points &positions(int body) const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+} // namespace pelvireg::registration

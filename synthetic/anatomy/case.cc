@@ -1,0 +1,1 @@
+#include "synthetic/anatomy/case.h"

@@ -1,0 +1,52 @@
+// estimate-<condition>.h5: where the registration put the organs.
+#pragma once
+
+#include "synthetic/dataset/geometry.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pelvireg::dataset
+{
+/// What one registration step says of itself.
+struct StepRecord
+{
+  std::string status = "ok";      ///< "ok", or why the step failed
+  int offered_control_points = 0;
+  int accepted_control_points = 0;
+  double in_plane_residual = 0;   ///< mm, mean over the accepted points after the step, re-matched
+  double max_in_plane_residual = 0; ///< mm
+  double attachment_residual = 0; ///< mm, largest
+  double out_of_plane_force = 0;  ///< N, largest nodal component along the plane's normal of the sliding rows' forces
+  double in_plane_force = 0;      ///< N, largest nodal in-plane component of the same
+  int solver_sweeps = 0;
+};
+
+/// One registered organ: the outer surface, with its positions at each step.
+struct EstimateSurface
+{
+  std::string name;
+  SurfaceMesh rest;
+  std::vector<Points> positions; ///< n_steps x (n x 3), mm
+};
+
+/// One run of the registration.
+struct EstimateSample
+{
+  int sample = 0;                          ///< 0 is the nominal run
+  std::vector<EstimateSurface> surfaces;   ///< organ_names in order
+  std::vector<StepRecord> steps;
+};
+
+/// Content of estimate-<condition>.h5.
+struct Estimate
+{
+  std::string case_name;
+  std::string condition; ///< "full", "no_boundary_conditions", …
+  std::vector<EstimateSample> samples;
+};
+
+void save(const Estimate &estimate, const std::filesystem::path &file);
+Estimate load_estimate(const std::filesystem::path &file);
+} // namespace pelvireg::dataset

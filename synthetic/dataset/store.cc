@@ -1,0 +1,1 @@
+#include "synthetic/dataset/anatomy.h"

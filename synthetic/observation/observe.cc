@@ -1,0 +1,1 @@
+#include "synthetic/observation/observe.h"
