@@ -17,6 +17,7 @@ struct LocalSystem
   Eigen::VectorXd residual;  ///< n
   Eigen::MatrixXd tangent;   ///< n x n
   double energy = 0;         ///< N mm; 0 for a term that has none
+  bool with_tangent = true;  ///< set by the assembler; when false, `tangent` is not read and need not be filled
 };
 
 /// A sum of items, each touching few unknowns. The assembler calls update() once before every assembly (alone), then

@@ -1,0 +1,133 @@
+#include "reference_fe/newton_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pelvireg::reference_fe
+{
+namespace
+{
+/// A chain of hardening springs between neighbouring unknowns: force = k (s + s^3), s the stretch.
+class SpringChain : public Term
+{
+public:
+  SpringChain(int n_springs, double stiffness) : n_springs_(n_springs), stiffness_(stiffness) {}
+  std::string name() const override { return "springs"; }
+  int n_items() const override { return n_springs_; }
+  void unknowns(int item, std::vector<int> &indices) const override { indices = {item, item + 1}; }
+  void evaluate(int item, const Eigen::VectorXd &x, LocalSystem &local) const override
+  {
+    const double stretch = x[item + 1] - x[item];
+    const double k = stiffness_ * (1 + 0.1 * item);
+    const double force = k * (stretch + std::pow(stretch, 3));
+    const double slope = k * (1 + 3 * stretch * stretch);
+    local.residual = Eigen::Vector2d(-force, force);
+    local.tangent = (Eigen::Matrix2d() << slope, -slope, -slope, slope).finished();
+    local.energy = k * (stretch * stretch / 2 + std::pow(stretch, 4) / 4);
+  }
+
+private:
+  int n_springs_;
+  double stiffness_;
+};
+
+/// x_unknown - value = 0, enforced by the force `multiplier`: a saddle point.
+class Prescribe : public Term
+{
+public:
+  Prescribe(int unknown, int multiplier, double value) : unknown_(unknown), multiplier_(multiplier), value_(value) {}
+  std::string name() const override { return "prescribe"; }
+  int n_items() const override { return 1; }
+  void unknowns(int, std::vector<int> &indices) const override { indices = {unknown_, multiplier_}; }
+  void evaluate(int, const Eigen::VectorXd &x, LocalSystem &local) const override
+  {
+    local.residual = Eigen::Vector2d(-x[multiplier_], value_ - x[unknown_]);
+    local.tangent = (Eigen::Matrix2d() << 0, -1, -1, 0).finished();
+    local.energy = 0;
+  }
+
+private:
+  int unknown_, multiplier_;
+  double value_;
+};
+
+EquilibriumSystem chain(int n_springs, double pull, int n_threads)
+{
+  EquilibriumSystem system(n_threads);
+  system.add_unknowns(n_springs + 1, {.name = "displacement"});
+  const int multiplier = system.add_unknowns(1, {.name = "load"});
+  system.add_term(std::make_shared<SpringChain>(n_springs, 3.0));
+  system.add_term(std::make_shared<Prescribe>(n_springs, multiplier, pull));
+  system.fix(0);
+  return system;
+}
+
+TEST(EquilibriumSystem, SaddlePointOfHardeningSpringsIsSolvedToTheTolerance)
+{
+  EquilibriumSystem system = chain(1, 2.0, 1);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(system.n_unknowns());
+  const NewtonResult result = solve_newton(system, x, {.residual_tolerance = 1e-12});
+  ASSERT_TRUE(result.converged()) << result.message;
+  EXPECT_DOUBLE_EQ(x[1], 2.0);
+  EXPECT_NEAR(x[2], 3.0 * (2.0 + 8.0), 1e-12);     // k (s + s^3)
+  EXPECT_NEAR(system.residual()[0], -30.0, 1e-12); // the reaction of the fixed unknown
+  EXPECT_NEAR(system.energy(), 3.0 * (2.0 + 4.0), 1e-12);
+}
+
+TEST(EquilibriumSystem, NewtonConvergesQuadratically)
+{
+  EquilibriumSystem system = chain(10, 8.0, 1);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(system.n_unknowns());
+  const NewtonResult result = solve_newton(system, x, {.residual_tolerance = 1e-9});
+  ASSERT_TRUE(result.converged()) << result.message;
+  const auto &it = result.iterations;
+  ASSERT_GE(it.size(), 3u);
+  const double last = it[it.size() - 1].residual, before = it[it.size() - 2].residual;
+  EXPECT_LT(last, 10 * before * before);
+}
+
+TEST(EquilibriumSystem, OneAndTwoThreadsGiveTheSameBytes)
+{
+  EquilibriumSystem one = chain(1000, 5.0, 1), two = chain(1000, 5.0, 2);
+  Eigen::VectorXd x(one.n_unknowns());
+  for (int i = 0; i < x.size(); ++i)
+    x[i] = std::sin(0.37 * i);
+  one.assemble(x, true);
+  two.assemble(x, true);
+  EXPECT_TRUE(one.residual() == two.residual());
+  EXPECT_EQ(one.tangent().value, two.tangent().value);
+  EXPECT_EQ(one.energy(), two.energy());
+}
+
+TEST(EquilibriumSystem, SparsityPatternIsKeptWhileNoTermChanges)
+{
+  EquilibriumSystem system = chain(10, 8.0, 1);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(system.n_unknowns());
+  solve_newton(system, x, {});
+  EXPECT_EQ(system.n_patterns_built(), 1);
+  system.fix(5);
+  system.assemble(x, true);
+  EXPECT_EQ(system.n_patterns_built(), 2);
+}
+
+TEST(EquilibriumSystem, UnconstrainedPartIsReportedAsSingular)
+{
+  EquilibriumSystem system;
+  system.add_unknowns(3, {.name = "displacement"});
+  system.add_term(std::make_shared<SpringChain>(2, 1.0));
+  Eigen::VectorXd x = Eigen::Vector3d(0, 1, 0);
+  const NewtonResult result = solve_newton(system, x, {});
+  EXPECT_EQ(result.status, NewtonStatus::singular);
+  EXPECT_NE(result.message.find("displacement"), std::string::npos);
+}
+
+TEST(EquilibriumSystem, NotANumberIsNeverConverged)
+{
+  EquilibriumSystem system = chain(3, 1.0, 1);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(system.n_unknowns());
+  x[2] = std::nan("");
+  EXPECT_EQ(solve_newton(system, x, {}).status, NewtonStatus::not_finite);
+}
+} // namespace
+} // namespace pelvireg::reference_fe
