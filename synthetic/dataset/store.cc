@@ -1,1 +1,0 @@
-#include "synthetic/dataset/anatomy.h"
