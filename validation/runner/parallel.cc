@@ -1,0 +1,38 @@
+#include "validation/runner/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace pelvireg::runner
+{
+void for_each_index(int n, int n_threads, const std::function<void(int)> &job)
+{
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(std::max(n, 0)));
+  std::atomic<int> next{0};
+  const auto work = [&]
+  {
+    for (int i = next++; i < n; i = next++)
+      try
+      {
+        job(i);
+      }
+      catch (const std::exception &)
+      {
+        failures[static_cast<std::size_t>(i)] = std::current_exception();
+      }
+  };
+  std::vector<std::thread> helpers;
+  for (int t = 1; t < std::min(n_threads, n); ++t)
+    helpers.emplace_back(work);
+  work();
+  for (std::thread &helper : helpers)
+    helper.join();
+  for (const std::exception_ptr &failure : failures)
+    if (failure)
+      std::rethrow_exception(failure);
+}
+} // namespace pelvireg::runner

@@ -1,0 +1,29 @@
+// errors_by_step.csv, errors_by_slice.csv and summary.json (DESIGN 4; docs/result_format.md).
+#pragma once
+
+#include "validation/runner/evaluate.h"
+#include "validation/runner/register.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pelvireg::runner
+{
+/// Content of the two CSV files: header line, one row a (condition, sample, organ, step or slice), nine significant
+/// digits, the same bytes on every run. A slice that misses the organ in truth or estimate has no row.
+std::string errors_by_step_csv(const Evaluation &evaluation);
+std::string errors_by_slice_csv(const Evaluation &evaluation);
+
+/// Content of summary.json: figures by organ and condition, aggregates over the runs, motion of the truth, quality of
+/// the runs, timing when given, verdicts on the paper's claims.
+std::string summary_json(const Evaluation &evaluation, const std::vector<StepTiming> &timings = {});
+
+/// Write all three into `directory`, each to a temporary name and renamed. Throws std::runtime_error when the disk
+/// refuses.
+void write_result_files(const Evaluation &evaluation, const std::vector<StepTiming> &timings,
+                        const std::filesystem::path &directory);
+
+/// Write text to a temporary name beside `file`, fsync, rename. Throws std::runtime_error when the disk refuses.
+void write_text_file(const std::filesystem::path &file, const std::string &text);
+} // namespace pelvireg::runner

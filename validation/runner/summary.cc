@@ -1,0 +1,155 @@
+#include "synthetic/dataset/geometry.h"
+#include "validation/runner/aggregate.h"
+#include "validation/runner/claims.h"
+#include "validation/runner/result_files.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace pelvireg::runner
+{
+namespace
+{
+using dataset::organ_names;
+using json = nlohmann::ordered_json;
+
+json to_json(const Aggregate &aggregate)
+{
+  return {{"n_runs", aggregate.n_runs}, {"mean_mm", aggregate.mean}, {"sd_mm", aggregate.sd}};
+}
+
+/// The distribution over the surface samples in the nominal run at the last step.
+json nominal_distribution(const Evaluation &evaluation, const std::string &condition, const std::string &organ)
+{
+  for (const StepError &row : evaluation.by_step)
+    if (row.condition == condition && row.organ == organ && row.sample == 0 && row.step == evaluation.n_steps())
+      return {{"n_points", row.distance.n},
+              {"mean_mm", row.distance.mean},
+              {"sd_mm", row.distance.sd},
+              {"p95_mm", row.distance.p95},
+              {"max_mm", row.distance.max}};
+  return nullptr;
+}
+
+json slices(const Evaluation &evaluation, const std::string &condition, const std::string &organ)
+{
+  json list = json::array();
+  const auto errors = error_by_slice(evaluation, condition, organ);
+  for (std::size_t i = 0; i < errors.size(); ++i)
+  {
+    if (!errors[i])
+      continue;
+    json slice = to_json(*errors[i]);
+    slice["slice_index"] = static_cast<int>(i) - evaluation.n_slices_each_side;
+    list.push_back(slice);
+  }
+  return list;
+}
+
+json organ_errors(const Evaluation &evaluation, const std::string &condition, const std::string &organ)
+{
+  const auto by_step = error_by_step(evaluation, condition, organ);
+  const auto worst = std::max_element(by_step.begin(), by_step.end(),
+                                      [](const Aggregate &a, const Aggregate &b) { return a.mean < b.mean; });
+  const double nothing = error_by_step(evaluation, unregistered, organ).back().mean;
+  json result;
+  result["last_step"] = to_json(by_step.back());
+  result["last_step_nominal_run"] = nominal_distribution(evaluation, condition, organ);
+  result["largest_over_steps"] = to_json(*worst);
+  result["largest_over_steps"]["step"] = worst - by_step.begin() + 1;
+  if (condition != unregistered && nothing > 0)
+    result["reduction_against_unregistered_percent"] = 100 * (1 - by_step.back().mean / nothing);
+  result["last_step_by_slice"] = slices(evaluation, condition, organ);
+  const auto slope = slope_with_distance(evaluation, condition, organ);
+  result["slope_with_distance"] = slope ? json(*slope) : json(nullptr);
+  return result;
+}
+
+json errors(const Evaluation &evaluation)
+{
+  json result;
+  for (const std::string &condition : evaluation.conditions)
+    for (const std::string &organ : organ_names)
+      result[condition][organ] = organ_errors(evaluation, condition, organ);
+  return result;
+}
+
+json motion(const Evaluation &evaluation)
+{
+  json result;
+  result["mean_vaginal_in_plane_displacement_mm"] = evaluation.vaginal_displacement;
+  result["mean_vaginal_in_plane_displacement_reported_by_truth_mm"] = evaluation.reported_vaginal_displacement;
+  for (const OrganMotion &organ : evaluation.motion)
+    result["organs"][organ.organ] = {{"mean_mm", organ.mean},
+                                     {"max_mm", organ.max},
+                                     {"mean_off_plane_mm", organ.mean_off_plane},
+                                     {"max_off_plane_mm", organ.max_off_plane}};
+  return result;
+}
+
+json quality(const Evaluation &evaluation)
+{
+  json list = json::array();
+  for (const RunQuality &run : evaluation.quality)
+    list.push_back({{"condition", run.condition},
+                    {"sample", run.sample},
+                    {"n_steps", run.n_steps},
+                    {"n_failed_steps", run.n_failed_steps},
+                    {"least_acceptance", run.least_acceptance},
+                    {"largest_mean_residual_mm", run.largest_mean_residual},
+                    {"largest_residual_mm", run.largest_residual},
+                    {"largest_out_of_plane_force_n", run.largest_out_of_plane_force},
+                    {"largest_in_plane_force_n", run.largest_in_plane_force}});
+  return list;
+}
+
+json missed(const Evaluation &evaluation)
+{
+  json list = json::array();
+  for (const MissedSlice &slice : evaluation.missed_slices)
+    list.push_back({{"condition", slice.condition},
+                    {"sample", slice.sample},
+                    {"organ", slice.organ},
+                    {"slice_index", slice.slice_index},
+                    {"truth_contour_mm", slice.truth_length}});
+  return list;
+}
+} // namespace
+
+std::string summary_json(const Evaluation &evaluation, const std::vector<StepTiming> &timings)
+{
+  json summary;
+  summary["format"] = "pelvireg summary";
+  summary["format_version"] = "1.0";
+  summary["units"] = "mm";
+  summary["case"] = evaluation.case_name;
+  summary["truth"] = evaluation.truth_source;
+  summary["n_increments"] = evaluation.n_increments;
+  summary["n_steps"] = evaluation.n_steps();
+  summary["surface_spacing_mm"] = evaluation.options.surface_spacing;
+  summary["contour_spacing_mm"] = evaluation.options.contour_spacing;
+  summary["slice_pitch_mm"] = evaluation.slice_pitch;
+  summary["claims"] = json::array();
+  for (const ClaimVerdict &claim : assess_claims(evaluation, timings))
+    summary["claims"].push_back({{"id", claim.id},
+                                 {"claim", claim.claim},
+                                 {"paper", claim.paper},
+                                 {"criterion", claim.criterion},
+                                 {"ours", claim.ours},
+                                 {"verdict", claim.verdict}});
+  summary["errors"] = errors(evaluation);
+  summary["truth_motion"] = motion(evaluation);
+  summary["runs"] = quality(evaluation);
+  summary["missed_slices"] = missed(evaluation);
+  summary["timing"] = json::array();
+  for (const StepTiming &timing : timings)
+    summary["timing"].push_back({{"condition", timing.condition},
+                                 {"n_steps", timing.n_steps},
+                                 {"median_ms", timing.median_ms},
+                                 {"p95_ms", timing.p95_ms},
+                                 {"max_ms", timing.max_ms}});
+  return summary.dump(2) + "\n";
+}
+} // namespace pelvireg::runner
