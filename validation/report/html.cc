@@ -1,0 +1,84 @@
+#include "validation/report/html.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+
+namespace pelvireg::report
+{
+namespace
+{
+std::string base64(const std::string &bytes)
+{
+  const char *alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3)
+  {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      word = word << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += k <= n ? alphabet[word >> (18 - 6 * k) & 63u] : '=';
+  }
+  return text;
+}
+} // namespace
+
+std::string escape(const std::string &text)
+{
+  std::string escaped;
+  for (const char character : text)
+    switch (character)
+    {
+    case '&':
+      escaped += "&amp;";
+      break;
+    case '<':
+      escaped += "&lt;";
+      break;
+    case '>':
+      escaped += "&gt;";
+      break;
+    case '"':
+      escaped += "&quot;";
+      break;
+    case '\'':
+      escaped += "&#39;";
+      break;
+    default:
+      escaped += character;
+    }
+  return escaped;
+}
+
+std::string table(const std::vector<std::string> &heading, const std::vector<std::vector<std::string>> &rows)
+{
+  std::string text = "<div class=\"scroll\"><table><thead><tr>";
+  for (const std::string &cell : heading)
+    text += "<th scope=\"col\">" + escape(cell) + "</th>";
+  text += "</tr></thead><tbody>\n";
+  for (const std::vector<std::string> &row : rows)
+  {
+    text += "<tr>";
+    for (std::size_t i = 0; i < heading.size(); ++i)
+    {
+      const std::string cell = i < row.size() ? escape(row[i]) : "";
+      text += i == 0 ? "<th scope=\"row\">" + cell + "</th>" : "<td>" + cell + "</td>";
+    }
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string png_data_url(const std::filesystem::path &file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (bytes.rfind("\x89PNG\r\n\x1a\n", 0) != 0)
+    return "";
+  return "data:image/png;base64," + base64(bytes);
+}
+} // namespace pelvireg::report

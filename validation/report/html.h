@@ -1,0 +1,19 @@
+// The few pieces of HTML that the report is made of.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pelvireg::report
+{
+/// Text made safe for element content and double-quoted attributes.
+std::string escape(const std::string &text);
+
+/// A table in a box that scrolls sideways on narrow screens. The first cell of each row is its heading. Cells are
+/// escaped; rows shorter than the heading are filled up.
+std::string table(const std::vector<std::string> &heading, const std::vector<std::vector<std::string>> &rows);
+
+/// The file as a data: URL. Empty when it cannot be read or does not begin like a PNG.
+std::string png_data_url(const std::filesystem::path &file);
+} // namespace pelvireg::report

@@ -1,0 +1,48 @@
+// report.html: what the evaluation found, for people. One file, no network, no script.
+#pragma once
+
+#include "synthetic/dataset/anatomy.h"
+#include "synthetic/dataset/estimate.h"
+#include "synthetic/dataset/truth.h"
+#include "validation/runner/evaluate.h"
+#include "validation/runner/register.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pelvireg::report
+{
+/// A still to show: a PNG on disk and one sentence on what it shows. A file that does not exist is left out.
+struct ReportPicture
+{
+  std::filesystem::path file;
+  std::string caption;
+};
+
+/// One line of the provenance table: program version, command line, SHA-256 of a file, …
+struct ProvenanceEntry
+{
+  std::string name;
+  std::string value;
+};
+
+/// Everything that the report shows. The references must outlive the call. Of each estimate the nominal run (sample 0)
+/// is drawn.
+struct ReportInputs
+{
+  const runner::Evaluation &evaluation;
+  const dataset::Anatomy &anatomy;
+  const dataset::Truth &truth;
+  const std::vector<dataset::Estimate> &estimates;
+  std::vector<runner::StepTiming> timings;
+  std::vector<ReportPicture> pictures;
+  std::vector<ProvenanceEntry> provenance;
+};
+
+/// The page as text. The same inputs give the same bytes; every string is escaped.
+std::string report_html(const ReportInputs &inputs);
+
+/// Write the page to a temporary name and rename it. Throws std::runtime_error when the disk refuses.
+void write_report(const ReportInputs &inputs, const std::filesystem::path &file);
+} // namespace pelvireg::report
