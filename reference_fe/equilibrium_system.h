@@ -30,6 +30,8 @@ public:
 
   /// Append `count` unknowns; returns the index of the first.
   int add_unknowns(int count, const UnknownGroup &group);
+  /// Another residual scale for one unknown of a group (the group's is the default).
+  void set_residual_scale(int unknown, double scale) { residual_scale_.at(unknown) = scale; }
   void add_term(std::shared_ptr<Term> term);
   /// A fixed unknown keeps whatever value it has in the solution; its row is left out and holds the reaction.
   void fix(int unknown);
