@@ -11,15 +11,18 @@
 
 namespace pelvireg::report
 {
-/// Write into `folder` (made when missing); every file carries the field data units = "mm" and SPACE = "LPS":
-///   truth/<part>_<increment>.vtp + truth.pvd     deformed outer surfaces: displacement (mm), region, organ;
-///                                                bars as lines: group, stretch; increment 0 is rest
-///   <condition>/<organ>_<step>.vtp + <condition>.pvd   sample 0: displacement (mm), region, organ, and error_mm
-///                                                (distance to the closest triangle of the truth at that step)
-///   contours/…_<increment>.vtp, slices/…_<k>.vtp + contours.pvd, slices.pvd
-///   supports.vtu                                 hexahedral ligaments and fasciae of the registration at rest
-/// The time of a .pvd is the increment for truth and contours, step / (steps per increment) for estimates and the
-/// slice's index for slices. Same input, same bytes. Throws std::runtime_error when a file cannot be written.
+/// Write into `folder` (made when missing). Every file carries the field data units = "mm" and SPACE = "LPS"; surfaces
+/// and outlines the cell arrays `region` (SurfaceRegion) and `organ` (index in organ_names, 4: pelvic floor).
+///   truth.pvd        deformed outer surfaces with `displacement` (mm); bars with `stretch` and `group`; time =
+///   increment,
+///                    0 is rest
+///   <condition>.pvd  registered outer surfaces of sample 0 with `displacement` and `error_mm` (distance of the point
+///   to
+///                    the truth's surface at the increment of that step); time = step / (steps per increment)
+///   contours.pvd     outlines in the DYN plane, control points with `normal`; time = increment
+///   slices.pvd       outlines in the validation slices at the last increment; time = slice index
+///   supports/*.vtu   hexahedra of ligaments and fasciae at rest, `fixed` = 1 at their far ends
+/// Same input, same bytes. Throws std::runtime_error when a file cannot be written.
 void export_vtk(const dataset::Anatomy &anatomy, const dataset::Truth &truth, const dataset::Observations &observations,
                 const std::vector<dataset::Estimate> &estimates, const std::filesystem::path &folder);
 } // namespace pelvireg::report

@@ -1,0 +1,275 @@
+#include "validation/report/scene.h"
+
+#include "validation/report/vtk_data.h"
+
+#include <vtkActor.h>
+#include <vtkArrowSource.h>
+#include <vtkCamera.h>
+#include <vtkCleanPolyData.h>
+#include <vtkClipPolyData.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkGlyph3D.h>
+#include <vtkLightKit.h>
+#include <vtkPlane.h>
+#include <vtkPlaneSource.h>
+#include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkScalarBarActor.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkTubeFilter.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace pelvireg::report
+{
+namespace
+{
+constexpr int width = 1200, height = 900;
+
+/// Viridis: even in lightness, readable in grey and for the colour-blind.
+vtkSmartPointer<vtkColorTransferFunction> viridis(double maximum)
+{
+  constexpr std::array<Colour, 6> anchors = {{{0.267, 0.005, 0.329},
+                                              {0.254, 0.265, 0.530},
+                                              {0.164, 0.471, 0.558},
+                                              {0.135, 0.659, 0.518},
+                                              {0.478, 0.821, 0.318},
+                                              {0.993, 0.906, 0.144}}};
+  auto function = vtkSmartPointer<vtkColorTransferFunction>::New();
+  for (std::size_t i = 0; i < anchors.size(); ++i)
+    function->AddRGBPoint(maximum * static_cast<double>(i) / (anchors.size() - 1), anchors[i][0], anchors[i][1],
+                          anchors[i][2]);
+  return function;
+}
+
+vtkSmartPointer<vtkPolyDataMapper> smooth_mapper(vtkPolyData *surface)
+{
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(surface);
+  normals->SetFeatureAngle(60);
+  normals->ConsistencyOff();
+  auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+  mapper->SetInputConnection(normals->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  return mapper;
+}
+
+vtkSmartPointer<vtkActor> actor_of(vtkPolyDataMapper *mapper, const Colour &colour, double opacity)
+{
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  vtkProperty *property = actor->GetProperty();
+  property->SetColor(colour[0], colour[1], colour[2]);
+  property->SetOpacity(opacity);
+  property->SetSpecular(0.15);
+  property->SetSpecularPower(20);
+  return actor;
+}
+} // namespace
+
+Scene::Scene()
+{
+  renderer_->SetBackground(1, 1, 1);
+  renderer_->SetUseDepthPeeling(1);
+  renderer_->SetMaximumNumberOfPeels(12);
+  renderer_->SetOcclusionRatio(0.0);
+  vtkNew<vtkLightKit> lights;
+  lights->SetKeyLightIntensity(0.85);
+  lights->AddLightsToRenderer(renderer_);
+}
+
+void Scene::add_surface(vtkPolyData *surface, const Colour &colour, double opacity)
+{
+  const auto actor = actor_of(smooth_mapper(surface), colour, opacity);
+  vtkNew<vtkProperty> inside;
+  inside->DeepCopy(actor->GetProperty());
+  inside->SetColor(0.62 * colour[0], 0.62 * colour[1], 0.62 * colour[2]);
+  inside->SetSpecular(0);
+  actor->SetBackfaceProperty(inside);
+  renderer_->AddActor(actor);
+}
+
+void Scene::add_coloured_surface(vtkPolyData *surface, const std::string &array, double maximum)
+{
+  surface->GetPointData()->SetActiveScalars(array.c_str());
+  const auto mapper = smooth_mapper(surface);
+  mapper->ScalarVisibilityOn();
+  mapper->SetScalarModeToUsePointData();
+  mapper->InterpolateScalarsBeforeMappingOn();
+  mapper->SetLookupTable(viridis(maximum));
+  mapper->UseLookupTableScalarRangeOn();
+  const auto actor = actor_of(mapper, {1, 1, 1}, 1);
+  actor->GetProperty()->SetAmbient(0.25); // the colour is a figure: keep shading weak
+  actor->GetProperty()->SetDiffuse(0.8);
+  actor->GetProperty()->SetSpecular(0);
+  renderer_->AddActor(actor);
+}
+
+void Scene::add_scale(const std::string &title, double maximum)
+{
+  vtkNew<vtkScalarBarActor> bar;
+  bar->SetLookupTable(viridis(maximum));
+  bar->SetTitle(title.c_str());
+  bar->SetNumberOfLabels(7);
+  bar->SetLabelFormat("%.0f");
+  bar->UnconstrainedFontSizeOn();
+  for (vtkTextProperty *text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()})
+  {
+    text->SetColor(0.1, 0.1, 0.1);
+    text->SetFontSize(24);
+    text->ShadowOff();
+    text->ItalicOff();
+    text->BoldOff();
+  }
+  bar->SetPosition(0.87, 0.12);
+  bar->SetWidth(0.1);
+  bar->SetHeight(0.7);
+  renderer_->AddActor2D(bar);
+}
+
+void Scene::add_wireframe(vtkPolyData *surface, const Colour &colour, double opacity)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(surface);
+  mapper->ScalarVisibilityOff();
+  const auto actor = actor_of(mapper, colour, opacity);
+  actor->GetProperty()->SetRepresentationToWireframe();
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetLineWidth(1);
+  renderer_->AddActor(actor);
+}
+
+void Scene::add_tubes(vtkPolyData *lines, const Colour &colour, double radius, double opacity)
+{
+  vtkNew<vtkTubeFilter> tubes;
+  tubes->SetInputData(lines);
+  tubes->SetRadius(radius);
+  tubes->SetNumberOfSides(10);
+  tubes->CappingOn();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(tubes->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  renderer_->AddActor(actor_of(mapper, colour, opacity));
+}
+
+void Scene::add_arrows(const dataset::Points &feet, const dataset::Points &vectors, const Colour &colour)
+{
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(to_vtk(feet));
+  add_point_array(data, "vectors", vectors);
+  data->GetPointData()->SetActiveVectors("vectors");
+  vtkNew<vtkArrowSource> arrow;
+  arrow->SetShaftRadius(0.04);
+  arrow->SetTipRadius(0.12);
+  arrow->SetTipLength(0.3);
+  vtkNew<vtkGlyph3D> glyphs;
+  glyphs->SetInputData(data);
+  glyphs->SetSourceConnection(arrow->GetOutputPort());
+  glyphs->SetVectorModeToUseVector();
+  glyphs->SetScaleModeToScaleByVector();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(glyphs->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  renderer_->AddActor(actor_of(mapper, colour, 1));
+}
+
+void Scene::add_plane(const dataset::Plane &plane, const Eigen::Vector3d &centre, double half_size)
+{
+  const Eigen::Vector3d middle = centre - (centre - plane.origin).dot(plane.normal) * plane.normal;
+  const Eigen::Vector3d up = (Eigen::Vector3d::UnitZ() - plane.normal.z() * plane.normal).normalized() * half_size;
+  const Eigen::Vector3d aside = up.cross(plane.normal);
+  std::array<Eigen::Vector3d, 4> corners = {middle - aside - up, middle + aside - up, middle + aside + up,
+                                                  middle - aside + up};
+  vtkNew<vtkPlaneSource> source;
+  source->SetOrigin(corners[0].data());
+  source->SetPoint1(corners[1].data());
+  source->SetPoint2(corners[3].data());
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(source->GetOutputPort());
+  const auto actor = actor_of(mapper, {0.35, 0.55, 0.85}, 0.16);
+  actor->GetProperty()->LightingOff();
+  renderer_->AddActor(actor);
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> border;
+  for (int i = 0; i < 4; ++i)
+    border.emplace_back(corners[i], corners[(i + 1) % 4]);
+  add_tubes(to_vtk(border), {0.25, 0.4, 0.7}, 0.35);
+}
+
+void Scene::add_legend(const std::vector<std::pair<std::string, Colour>> &entries)
+{
+  double y = height - 44;
+  for (const auto &[name, colour] : entries)
+  {
+    vtkNew<vtkTextActor> text;
+    text->SetInput(name.c_str());
+    text->SetPosition(20, y);
+    text->GetTextProperty()->SetFontSize(24);
+    text->GetTextProperty()->BoldOn();
+    text->GetTextProperty()->SetColor(0.8 * colour[0], 0.8 * colour[1], 0.8 * colour[2]);
+    renderer_->AddActor2D(text);
+    y -= 32;
+  }
+}
+
+void Scene::save(const std::filesystem::path &file, View view, const Eigen::Vector3d &lower,
+                 const Eigen::Vector3d &upper)
+{
+  const Eigen::Vector3d centre = 0.5 * (lower + upper);
+  const Eigen::Vector3d from =
+      view == View::sagittal ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0.72, -0.85, 0.42).normalized();
+  const Eigen::Vector3d right = (-from).cross(Eigen::Vector3d::UnitZ()).normalized(), up = right.cross(-from);
+  const Eigen::Vector3d half = 0.5 * (upper - lower);
+  const double half_width = half.dot(right.cwiseAbs()), half_height = half.dot(up.cwiseAbs());
+
+  vtkCamera *camera = renderer_->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetFocalPoint(centre.data());
+  const Eigen::Vector3d position = centre + 500 * from;
+  camera->SetPosition(position.data());
+  camera->SetViewUp(0, 0, 1);
+  camera->SetParallelScale(1.06 * std::max(half_height, half_width * height / width));
+  renderer_->ResetCameraClippingRange();
+
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0); // depth peeling and multisampling exclude each other
+  window->SetAlphaBitPlanes(1);
+  window->SetSize(width, height);
+  renderer_->UseFXAAOn();
+  window->AddRenderer(renderer_);
+  window->Render();
+  vtkNew<vtkWindowToImageFilter> image;
+  image->SetInput(window);
+  image->SetInputBufferTypeToRGB();
+  image->ReadFrontBufferOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetFileName(file.c_str());
+  writer->SetCompressionLevel(9);
+  writer->SetInputConnection(image->GetOutputPort());
+  writer->Write();
+  if (writer->GetErrorCode() != 0 || !std::filesystem::exists(file))
+    throw std::runtime_error("The picture " + file.string() + " cannot be written; is the disk full?");
+}
+
+vtkSmartPointer<vtkPolyData> right_of(vtkPolyData *surface, const dataset::Plane &plane)
+{
+  vtkNew<vtkPlane> function;
+  function->SetOrigin(plane.origin.data());
+  function->SetNormal(plane.normal.data());
+  vtkNew<vtkClipPolyData> clip;
+  clip->SetInputData(surface);
+  clip->SetClipFunction(function);
+  clip->InsideOutOn();
+  clip->Update();
+  return clip->GetOutput();
+}
+} // namespace pelvireg::report
