@@ -1,0 +1,52 @@
+#include "validation/report/line_plot.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace pelvireg::report
+{
+namespace
+{
+LinePlot plot()
+{
+  return {"title <1>", "step", "error (mm)", {1, 2, 3, 4}, {{"vagina", {1.0, 2.0, std::nullopt, 3.0}, {}}}, 3, 1, {}};
+}
+
+int count(const std::string &text, const std::string &word)
+{
+  int n = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    ++n;
+  return n;
+}
+
+TEST(LinePlot, LeavesAGapWhereThereIsNoValue)
+{
+  const std::string svg = line_plot_svg(plot());
+  EXPECT_EQ(count(svg, "<circle"), 3);
+  EXPECT_EQ(count(svg, "stroke-width=\"2\""), 2) << "one stretch before the gap, one after";
+}
+
+TEST(LinePlot, PutsValuesWhereTheAxesSay)
+{
+  // Axis to 3 in steps of 0.5; the panel's rim: x 52 … 408, y 274 … 34.
+  const std::string svg = line_plot_svg(plot());
+  EXPECT_NE(svg.find("<circle cx=\"52.0\" cy=\"194.0\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("<circle cx=\"408.0\" cy=\"34.0\""), std::string::npos);
+  EXPECT_NE(svg.find(">2.5<"), std::string::npos);
+}
+
+TEST(LinePlot, EscapesItsText)
+{
+  EXPECT_NE(line_plot_svg(plot()).find("title &lt;1&gt;"), std::string::npos);
+}
+
+TEST(LinePlot, RefusesACurveOfAnotherLength)
+{
+  LinePlot broken = plot();
+  broken.curves[0].values.pop_back();
+  EXPECT_THROW(line_plot_svg(broken), std::invalid_argument);
+}
+} // namespace
+} // namespace pelvireg::report

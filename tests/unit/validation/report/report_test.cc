@@ -1,0 +1,83 @@
+#include "validation/report/report.h"
+
+#include "tests/unit/validation/fixtures/sphere_case.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace pelvireg::report
+{
+namespace
+{
+const Eigen::Vector3d translation(2, 5, -6);
+
+struct Case
+{
+  dataset::Anatomy anatomy = test::sphere_anatomy();
+  dataset::Truth truth = test::sphere_truth(translation);
+  std::vector<dataset::Estimate> estimates = {test::sphere_estimate("full", translation, 0.9),
+                                              test::sphere_estimate("no_boundary_conditions", translation, 0.6)};
+
+  std::string html(const std::vector<ProvenanceEntry> &provenance = {{"Command", "pelvireg run spheres"}}) const
+  {
+    const runner::Evaluation evaluation = runner::evaluate(anatomy, truth, estimates);
+    return report_html({evaluation, anatomy, truth, estimates, {{"full", 6, 1.25, 1.5, 2.0}}, {}, provenance});
+  }
+};
+
+TEST(Report, PutsVerdictAndErrorsBeforeEverythingElse)
+{
+  const std::string html = Case().html();
+  const std::size_t verdict = html.find("confirmed, "), table = html.find("<table>"), figure = html.find("<figure>");
+  ASSERT_NE(verdict, std::string::npos);
+  EXPECT_LT(verdict, table);
+  EXPECT_LT(table, figure);
+  for (const std::string word : {"What this is not", "not a clinical validation", "Definitions", "Provenance",
+                                 "pelvireg run spheres", "1.2 / 1.5", "20 mm", "paper: below 4 mm"})
+    EXPECT_NE(html.find(word), std::string::npos) << word;
+}
+
+TEST(Report, NeedsNoNetworkAndRunsNoScript)
+{
+  const std::string html = Case().html();
+  for (const std::string word : {"http:", "https:", "src=\"/", "<script", "url(", "@import", ">nan", " nan", ",nan", ">inf"})
+    EXPECT_EQ(html.find(word), std::string::npos) << word;
+  EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
+}
+
+TEST(Report, EscapesHostileNames)
+{
+  Case hostile;
+  const std::string name = "<script>alert(1)</script>\"'&";
+  hostile.anatomy.case_name = hostile.truth.case_name = name;
+  hostile.truth.source = name;
+  for (dataset::Estimate &estimate : hostile.estimates)
+    estimate.case_name = name;
+  const std::string html = hostile.html({{name, name}});
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_NE(html.find("&lt;script&gt;alert(1)"), std::string::npos);
+}
+
+TEST(Report, IsTheSameOnEveryRun)
+{
+  EXPECT_EQ(Case().html(), Case().html());
+}
+
+TEST(Report, IsWrittenWholeToItsFile)
+{
+  // PELVIREG_REPORT_SAMPLE keeps the page, to look at it.
+  const char *sample = std::getenv("PELVIREG_REPORT_SAMPLE");
+  const std::filesystem::path file = sample ? std::filesystem::path(sample)
+                                            : std::filesystem::path(::testing::TempDir()) / "pelvireg_report_test.html";
+  const Case spheres;
+  const runner::Evaluation evaluation = runner::evaluate(spheres.anatomy, spheres.truth, spheres.estimates);
+  const ReportInputs inputs{evaluation, spheres.anatomy, spheres.truth, spheres.estimates, {}, {}, {}};
+  write_report(inputs, file);
+  EXPECT_EQ(std::filesystem::file_size(file), report_html(inputs).size());
+  EXPECT_THROW(write_report(inputs, "/nowhere/report.html"), std::runtime_error);
+}
+} // namespace
+} // namespace pelvireg::report

@@ -1,0 +1,139 @@
+#include "validation/runner/evaluate.h"
+
+#include "tests/unit/validation/fixtures/shapes.h"
+#include "tests/unit/validation/fixtures/sphere_case.h"
+#include "validation/runner/result_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace pelvireg::runner
+{
+namespace
+{
+const Eigen::Vector3d translation(2, 3, -6);
+
+Evaluation judged(const std::vector<dataset::Estimate> &estimates)
+{
+  return evaluate(test::sphere_anatomy(), test::sphere_truth(translation), estimates);
+}
+
+TEST(Evaluate, APerfectEstimateHasNoError)
+{
+  const Evaluation evaluation = judged({test::sphere_estimate("full", translation, 1.0)});
+  int n_rows = 0;
+  for (const StepError &row : evaluation.by_step)
+    if (row.condition == "full")
+    {
+      ++n_rows;
+      EXPECT_LE(row.distance.max, 1e-12) << row.organ << " step " << row.step;
+    }
+  EXPECT_EQ(n_rows, 4 * 6);
+  for (const SliceError &row : evaluation.by_slice)
+    if (row.condition == "full")
+    {
+      EXPECT_LE(row.distance.max, 1e-12) << row.organ << " slice " << row.slice_index;
+    }
+}
+
+TEST(Evaluate, UnregisteredIsAlwaysThereAndGrowsWithTheMotion)
+{
+  const Evaluation evaluation = judged({});
+  ASSERT_EQ(evaluation.conditions, std::vector<std::string>{unregistered});
+  ASSERT_EQ(evaluation.by_step.size(), 4u * 6u);
+  for (std::size_t row = 2; row < 6; ++row)
+    EXPECT_EQ(evaluation.by_step[row].distance.mean > evaluation.by_step[row - 1].distance.mean, row % 2 == 0)
+        << "two steps share an increment, the next one is farther";
+}
+
+TEST(Evaluate, AnEstimateThatDoesNotMoveEqualsUnregistered)
+{
+  const Evaluation evaluation = judged({test::sphere_estimate("full", translation, 0.0)});
+  for (std::size_t row = 0; row < 24; ++row)
+    EXPECT_EQ(evaluation.by_step[row].distance.mean, evaluation.by_step[row + 24].distance.mean);
+}
+
+TEST(Evaluate, ReproducesTheMeanDistanceOfOffsetSpheres)
+{
+  // Mean over a sphere of the distance to the same sphere moved by d: exactly d / 2.
+  dataset::Anatomy anatomy = test::sphere_anatomy();
+  dataset::Truth truth = test::sphere_truth({0, 4, 0});
+  for (std::size_t organ = 0; organ < 4; ++organ)
+  {
+    const dataset::SurfaceMesh sphere = test::icosphere({0.37, 0, 100.0 * static_cast<double>(organ)}, 20, 3);
+    truth.surfaces[organ].rest.points = sphere.points;
+    anatomy.registration.bodies[organ].points.bottomRows(sphere.points.rows()) = sphere.points;
+  }
+  const Evaluation evaluation = evaluate(anatomy, truth, {});
+  for (const StepError &row : evaluation.by_step)
+    if (row.step == 6)
+    {
+      EXPECT_NEAR(row.distance.mean, 2.0, 0.06) << "201 samples: a stratified mean to 3 %";
+    }
+}
+
+TEST(Evaluate, MeasuresTheTruthsMotionInAndOffThePlane)
+{
+  const Evaluation evaluation = judged({});
+  ASSERT_EQ(evaluation.motion.size(), 4u);
+  for (const OrganMotion &organ : evaluation.motion)
+  {
+    EXPECT_NEAR(organ.mean, 7, 1e-12);
+    EXPECT_NEAR(organ.max_off_plane, 2, 1e-12);
+  }
+  EXPECT_NEAR(evaluation.vaginal_displacement, std::sqrt(45.0), 1e-12);
+}
+
+TEST(Evaluate, SliceRowsExistExactlyWhereTheTruthIsCut)
+{
+  const Evaluation evaluation = judged({test::sphere_estimate("full", translation, 1.0)});
+  // Truth at the last increment: centre 2.37, half axis 20, so slice -3 at -18 mm misses it and six others cut it.
+  EXPECT_EQ(evaluation.by_slice.size() + evaluation.missed_slices.size(), 2u * 4u * 6u);
+  for (const SliceError &row : evaluation.by_slice)
+    EXPECT_EQ(row.offset, 6.0 * row.slice_index);
+}
+
+TEST(Evaluate, ASliceThatTheEstimateMissesIsCountedNotScored)
+{
+  // Truth moves 12 mm to the left: 12.37 + 20 > 30 = slice 5; the rest mesh ends at 20.37, short of slices 4 and 5.
+  dataset::Anatomy anatomy = test::sphere_anatomy();
+  anatomy.n_slices_each_side = 5;
+  const Evaluation evaluation = evaluate(anatomy, test::sphere_truth({12, 0, 0}), {});
+  ASSERT_EQ(evaluation.missed_slices.size(), 4u * 2u);
+  for (const MissedSlice &slice : evaluation.missed_slices)
+  {
+    EXPECT_GE(slice.slice_index, 4);
+    EXPECT_GT(slice.truth_length, 0);
+  }
+  for (const SliceError &row : evaluation.by_slice)
+    EXPECT_LE(row.slice_index, 3);
+}
+
+TEST(Evaluate, KeepsWhatTheRunsSayOfThemselves)
+{
+  dataset::Estimate estimate = test::sphere_estimate("full", translation, 1.0);
+  estimate.samples[0].steps[2].status = "not_finite";
+  estimate.samples[0].steps[4].accepted_control_points = 10;
+  const Evaluation evaluation = judged({estimate});
+  ASSERT_EQ(evaluation.quality.size(), 1u);
+  EXPECT_EQ(evaluation.quality[0].n_failed_steps, 1);
+  EXPECT_DOUBLE_EQ(evaluation.quality[0].least_acceptance, 0.5);
+  EXPECT_DOUBLE_EQ(evaluation.quality[0].largest_mean_residual, 0.06) << "step 6, the last of its position";
+}
+
+TEST(Evaluate, GivesTheSameBytesForOneAndTwoThreadsAndAnyOrderOfEstimates)
+{
+  const dataset::Estimate full = test::sphere_estimate("full", translation, 0.9);
+  const dataset::Estimate bare = test::sphere_estimate("no_boundary_conditions", translation, 0.6);
+  EvaluateOptions two_threads;
+  two_threads.n_threads = 2;
+  const Evaluation one = judged({full, bare});
+  const Evaluation two = evaluate(test::sphere_anatomy(), test::sphere_truth(translation), {bare, full}, two_threads);
+  EXPECT_EQ(errors_by_step_csv(one), errors_by_step_csv(two));
+  EXPECT_EQ(errors_by_slice_csv(one), errors_by_slice_csv(two));
+  EXPECT_EQ(one.conditions, (std::vector<std::string>{unregistered, "no_boundary_conditions", "full"}));
+}
+} // namespace
+} // namespace pelvireg::runner
