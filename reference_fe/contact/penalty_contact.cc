@@ -7,9 +7,8 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace pelvireg::reference_fe
@@ -181,16 +180,18 @@ double PenaltyContact::gap(const Pair &pair, const Eigen::VectorXd &solution) co
 
 bool PenaltyContact::search(const Eigen::VectorXd &solution)
 {
-  using Key = std::tuple<int, int, int>;
-  const auto touching = [&](const std::vector<Pair> &pairs) {
-    std::vector<Key> keys;
+  std::map<std::pair<int, int>, std::array<double, 2>> gaps; // by pass and vertex: with the old and the new pairs
+  const auto note_gaps = [&](const std::vector<Pair> &pairs, int which) {
     for (const Pair &pair : pairs)
-      if (gap(pair, solution) < options_.onset)
-        keys.emplace_back(pair.pass, pair.vertex, pair.facet);
-    return keys;
+      if (const double g = gap(pair, solution); g < options_.onset)
+        gaps.try_emplace({pair.pass, pair.vertex}, std::array{options_.onset, options_.onset}).first->second[which] = g;
   };
   std::vector<Pair> found = find_pairs(solution);
-  const bool changed = touching(found) != touching(pairs_);
+  note_gaps(pairs_, 0);
+  note_gaps(found, 1);
+  const bool changed = std::any_of(gaps.begin(), gaps.end(), [&](const auto &entry) {
+    return std::abs(entry.second[0] - entry.second[1]) > options_.settled_gap;
+  });
   pairs_ = std::move(found);
   pairs_changed_ = true;
   return changed;

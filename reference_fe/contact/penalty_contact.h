@@ -24,6 +24,7 @@ struct ContactOptions
   double penalty = 0.5;         ///< MPa/mm, slope of the traction at depth
   double onset = 0.2;           ///< mm, gap at which the traction begins (smoothly)
   double search_distance = 1.5; ///< mm, gap up to which a vertex is followed
+  double settled_gap = 0.02;    ///< mm
 };
 
 /// Contact law: traction t(g)/penalty = (g0 - g)^2 / (4 g0) for |g| < g0, -g below, 0 above; energy and its derivatives
@@ -48,7 +49,8 @@ public:
   PenaltyContact(std::vector<ContactSurface> surfaces, const std::vector<std::pair<int, int>> &pairs,
                  const ContactOptions &options);
 
-  /// Pair vertices and facets at `solution`. True when a pair that transmits traction has changed.
+  /// Pair vertices and facets at `solution`. True when the new pairs see another contact than the old ones: some vertex
+  /// has a gap (counted up to the onset) that differs by more than settled_gap.
   bool search(const Eigen::VectorXd &solution);
   /// Deepest penetration of a vertex below the facet that it is paired with now, beyond that at rest, mm.
   double deepest_penetration(const Eigen::VectorXd &solution) const;
