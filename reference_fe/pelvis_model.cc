@@ -2,6 +2,8 @@
 
 #include "reference_fe/constraints/follower_pressure.h"
 #include "reference_fe/elements/quadratic_tetrahedron.h"
+#include "reference_fe/elements/shell_term.h"
+#include "reference_fe/materials/yeoh.h"
 #include "synthetic/dataset/error.h"
 
 #include <fmt/format.h>
@@ -23,7 +25,7 @@ public:
   {
     for (const dataset::ReferenceShell &shell : reference.shells)
     {
-      const int first = system.add_unknowns(7 * static_cast<int>(shell.midsurface.rows()), {shell.name});
+      const int first = add_shell_unknowns(system, shell_body(shell));
       shells_[shell.name] = {&shell, first};
       for (const std::int32_t node : shell.fixed_nodes)
         for (int k = 0; k < 3; ++k)
@@ -78,6 +80,11 @@ private:
   std::map<std::string, std::pair<const dataset::ReferenceSolid *, int>> solids_;
 };
 
+std::shared_ptr<const HyperelasticLaw> yeoh(const dataset::YeohMaterial &m)
+{
+  return std::make_shared<Yeoh>(m.c10, m.c20, m.c30, m.kappa);
+}
+
 std::vector<std::string> part_names(const ReferenceModel &reference)
 {
   std::vector<std::string> names;
@@ -91,13 +98,15 @@ std::vector<std::string> part_names(const ReferenceModel &reference)
 void add_elements(const ReferenceModel &reference, const Parts &parts, PelvisModel &model)
 {
   for (const dataset::ReferenceShell &shell : reference.shells)
-    (void)shell; // TODO shell element
+    model.system.add_term(std::make_shared<ShellTerm>(
+        shell_body(shell), yeoh(reference.materials.at(shell.material)), parts.first_unknown(shell.name)));
   for (const dataset::ReferenceSolid &solid : reference.solids)
     model.system.add_term(std::make_shared<QuadraticTetrahedra>(solid, reference.materials.at(solid.material),
                                                                 parts.first_unknown(solid.name)));
   for (const dataset::ReferenceTruss &truss : reference.trusses)
   {
     Bar bar;
+    bar.group = truss.group;
     bar.nodes.push_back(parts.node(truss.part_a, truss.node_a));
     if (truss.part_b.empty())
       bar.fixed_end = truss.fixed_point;
@@ -144,9 +153,10 @@ void add_ties(const ReferenceModel &reference, const Parts &parts, PelvisModel &
     const auto faces_b = parts.outer_faces(b, SurfaceRegion::cervix_patch);
     for (const auto &[part, faces] : {std::pair{&a, &faces_a}, std::pair{&b, &faces_b}})
       if (faces->empty())
-        throw InputError(fmt::format("tie {}–{}: part '{}' has no cell of region cervix_patch; mark the shared patch on "
-                                     "both parts",
-                                     a, b, *part));
+        throw InputError(
+            fmt::format("tie {}–{}: part '{}' has no cell of region cervix_patch; mark the shared patch on "
+                        "both parts",
+                        a, b, *part));
     model.ties.push_back(std::make_shared<Tie>("tie " + a + "–" + b, faces_a, faces_b));
     model.system.add_term(model.ties.back());
   }

@@ -43,9 +43,10 @@ ClosestPoint closest_point(const Eigen::Vector3d &p, const Eigen::Vector3d &a, c
 
 const std::vector<std::array<int, 3>> &face_facets(int n_nodes)
 {
-  static const std::vector<std::array<int, 3>> quadrilateral = {{8, 0, 4}, {8, 4, 1}, {8, 1, 5}, {8, 5, 2},
-                                                                {8, 2, 6}, {8, 6, 3}, {8, 3, 7}, {8, 7, 0}};
-  static const std::vector<std::array<int, 3>> triangle = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+  using Facet = std::array<int, 3>;
+  static const std::vector<Facet> quadrilateral = {Facet{8, 0, 4}, Facet{8, 4, 1}, Facet{8, 1, 5}, Facet{8, 5, 2},
+                                                   Facet{8, 2, 6}, Facet{8, 6, 3}, Facet{8, 3, 7}, Facet{8, 7, 0}};
+  static const std::vector<Facet> triangle = {Facet{0, 3, 5}, Facet{3, 1, 4}, Facet{5, 4, 2}, Facet{3, 4, 5}};
   return n_nodes == 9 ? quadrilateral : triangle;
 }
 

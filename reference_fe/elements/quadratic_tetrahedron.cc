@@ -5,8 +5,6 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace pelvireg::reference_fe
 {
 namespace
@@ -29,29 +27,64 @@ ShapeGradient shape_gradient(const Eigen::Vector4d &b)
   return gradient;
 }
 
-/// Isochoric Yeoh law in terms of F: W(I1bar), first Piola-Kirchhoff stress P and dP/dF applied through contractions.
-struct Isochoric
+/// Green-Lagrange strain of F, engineering shears.
+Voigt green_lagrange(const Eigen::Matrix3d &f)
 {
-  Isochoric(const Eigen::Matrix3d &f, const dataset::YeohMaterial &m)
-      : j(f.determinant()), f_inverse_t(f.inverse().transpose()), scale(std::pow(j, -2. / 3)), i1(f.squaredNorm())
-  {
-    const double e = scale * i1 - 3;
-    energy = m.c10 * e + m.c20 * e * e + m.c30 * e * e * e;
-    w1 = m.c10 + 2 * m.c20 * e + 3 * m.c30 * e * e;
-    w2 = 2 * m.c20 + 6 * m.c30 * e;
-    d_i1 = scale * (2 * f - 2. / 3 * i1 * f_inverse_t);
-  }
+  const Eigen::Matrix3d e = 0.5 * (f.transpose() * f - Eigen::Matrix3d::Identity());
+  Voigt v;
+  v << e(0, 0), e(1, 1), e(2, 2), 2 * e(0, 1), 2 * e(0, 2), 2 * e(1, 2);
+  return v;
+}
 
-  double j;
-  Eigen::Matrix3d f_inverse_t;
-  double scale, i1, energy = 0, w1 = 0, w2 = 0;
-  Eigen::Matrix3d d_i1; ///< dI1bar/dF; P = w1 d_i1
-};
+/// Change of the strain with the position of a node whose shape function has the gradient g: dE = B dx.
+Eigen::Matrix<double, 6, 3> strain_operator(const Eigen::Matrix3d &f, const Eigen::Vector3d &g)
+{
+  Eigen::Matrix<double, 6, 3> b;
+  for (int i = 0; i < 3; ++i)
+    b.row(i) = g[i] * f.col(i).transpose();
+  b.row(3) = g[1] * f.col(0).transpose() + g[0] * f.col(1).transpose();
+  b.row(4) = g[2] * f.col(0).transpose() + g[0] * f.col(2).transpose();
+  b.row(5) = g[2] * f.col(1).transpose() + g[1] * f.col(2).transpose();
+  return b;
+}
+
+/// Adds int S : dE and its derivative over one integration point.
+void add_isochoric(const Eigen::Matrix3d &f, const TetrahedronPoint &q, const StressState &state, Vector30 &force,
+                   Matrix30 &stiffness)
+{
+  Eigen::Matrix<double, 6, 30> b;
+  for (int n = 0; n < 10; ++n)
+    b.middleCols<3>(3 * n) = strain_operator(f, q.gradient.col(n));
+  force += q.volume * b.transpose() * state.stress;
+  stiffness += q.volume * b.transpose() * state.tangent * b;
+  Eigen::Matrix3d s;
+  s << state.stress[0], state.stress[3], state.stress[4], //
+      state.stress[3], state.stress[1], state.stress[5],  //
+      state.stress[4], state.stress[5], state.stress[2];
+  const Eigen::Matrix<double, 10, 10> geometric = q.volume * q.gradient.transpose() * s * q.gradient;
+  for (int m = 0; m < 10; ++m)
+    for (int n = 0; n < 10; ++n)
+      stiffness.block<3, 3>(3 * m, 3 * n).diagonal().array() += geometric(m, n);
+}
+
+/// Adds int J and its first two derivatives over one integration point.
+void add_volume(const Eigen::Matrix3d &f, const TetrahedronPoint &q, double &volume, Vector30 &gradient,
+                Matrix30 &hessian)
+{
+  const double v = q.volume * f.determinant();
+  const Eigen::Matrix<double, 3, 10> g = f.inverse().transpose() * q.gradient; // in the current frame
+  volume += v;
+  gradient += v * Eigen::Map<const Vector30>(g.data());
+  for (int m = 0; m < 10; ++m)
+    for (int n = 0; n < 10; ++n)
+      hessian.block<3, 3>(3 * m, 3 * n) += v * (g.col(m) * g.col(n).transpose() - g.col(n) * g.col(m).transpose());
+}
 } // namespace
 
 QuadraticTetrahedra::QuadraticTetrahedra(const dataset::ReferenceSolid &solid, const dataset::YeohMaterial &material,
                                          int first_unknown)
-    : name_(solid.name), material_(material), first_unknown_(first_unknown), rest_(solid.points)
+    : name_(solid.name), isochoric_(material.c10, material.c20, material.c30, 0), kappa_(material.kappa),
+      first_unknown_(first_unknown), rest_(solid.points)
 {
   const double a = 0.58541019662496845446, c = 0.13819660112501051518; // degree 2, 4 points
   for (Eigen::Index i = 0; i < solid.cells.rows(); ++i)
@@ -96,42 +129,21 @@ void QuadraticTetrahedra::evaluate(int item, const Eigen::VectorXd &solution, Lo
   for (int n = 0; n < 10; ++n)
     x.col(n) = rest_.row(cell.nodes[n]).transpose() + solution.segment<3>(first_unknown_ + 3 * cell.nodes[n]);
 
-  Vector30 force = Vector30::Zero(), d_volume = Vector30::Zero(); // d_volume: derivative of the cell's current volume
+  Vector30 force = Vector30::Zero(), d_volume = Vector30::Zero(); // d_volume: derivative of the cell's volume
   Matrix30 stiffness = Matrix30::Zero(), d2_volume = Matrix30::Zero();
+  double volume = 0;
   local.energy = 0;
-  for (const IntegrationPoint &q : cell.points)
+  for (const TetrahedronPoint &q : cell.points)
   {
-    const Isochoric law(x * q.gradient.transpose(), material_);
-    const Eigen::Matrix<double, 3, 10> g = law.f_inverse_t * q.gradient; // gradient in the current frame
-    const Eigen::Matrix<double, 3, 10> b = law.d_i1 * q.gradient;
-    const Eigen::Matrix<double, 3, 10> fg = x * q.gradient.transpose() * q.gradient;
-    const Eigen::Matrix<double, 10, 10> gradient_products = q.gradient.transpose() * q.gradient;
-    const Eigen::Map<const Vector30> b_all(b.data()), g_all(g.data()), fg_all(fg.data());
-    local.energy += q.volume * law.energy;
-    force += q.volume * law.w1 * b_all;
-    d_volume += q.volume * law.j * g_all;
-    // d2 I1bar = s [2 I - 4/3 (F x F^-T + F^-T x F) + 4/9 I1 F^-T x F^-T + 2/3 I1 (F^-T . F^-T crossed)].
-    stiffness += q.volume * law.w2 * b_all * b_all.transpose();
-    const double s = q.volume * law.w1 * law.scale;
-    stiffness += s * (-4. / 3 * (fg_all * g_all.transpose() + g_all * fg_all.transpose()) +
-                      4. / 9 * law.i1 * g_all * g_all.transpose());
-    for (int m = 0; m < 10; ++m)
-      for (int n = 0; n < 10; ++n)
-      {
-        const Eigen::Matrix3d crossed = g.col(n) * g.col(m).transpose();
-        stiffness.block<3, 3>(3 * m, 3 * n) +=
-            s * (2 * gradient_products(m, n) * Eigen::Matrix3d::Identity() + 2. / 3 * law.i1 * crossed);
-        d2_volume.block<3, 3>(3 * m, 3 * n) += q.volume * law.j * (g.col(m) * g.col(n).transpose() - crossed);
-      }
+    const Eigen::Matrix3d f = x * q.gradient.transpose();
+    const StressState state = isochoric_.evaluate(green_lagrange(f));
+    local.energy += q.volume * state.energy;
+    add_isochoric(f, q, state, force, stiffness);
+    add_volume(f, q, volume, d_volume, d2_volume);
   }
-  // Volumetric part on the cell's mean dilatation.
-  const double v0 = cell.volume;
-  double v = 0;
-  for (const IntegrationPoint &q : cell.points)
-    v += q.volume * Eigen::Matrix3d(x * q.gradient.transpose()).determinant();
-  const double pressure = material_.kappa * (v / v0 - 1);
-  local.energy += 0.5 * pressure * (v / v0 - 1) * v0;
+  const double dilatation = volume / cell.volume - 1, pressure = kappa_ * dilatation;
+  local.energy += 0.5 * pressure * dilatation * cell.volume;
   local.residual = force + pressure * d_volume;
-  local.tangent = stiffness + material_.kappa / v0 * d_volume * d_volume.transpose() + pressure * d2_volume;
+  local.tangent = stiffness + kappa_ / cell.volume * d_volume * d_volume.transpose() + pressure * d2_volume;
 }
 } // namespace pelvireg::reference_fe

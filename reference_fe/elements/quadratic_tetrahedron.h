@@ -1,6 +1,7 @@
 // The solid organ (uterus): quadratic tetrahedra, nearly incompressible, finite strain.
 #pragma once
 
+#include "reference_fe/materials/yeoh.h"
 #include "reference_fe/term.h"
 #include "synthetic/dataset/anatomy.h"
 
@@ -11,6 +12,13 @@
 
 namespace pelvireg::reference_fe
 {
+/// Integration point of a 10-node tetrahedron.
+struct TetrahedronPoint
+{
+  Eigen::Matrix<double, 3, 10> gradient; ///< of the shape functions in the rest frame, 1/mm
+  double volume = 0;                     ///< weight times Jacobian, mm^3
+};
+
 /// 10-node tetrahedra, total Lagrangian. Energy of a cell: int W(I1bar) dV + kappa/2 V (Jbar - 1)^2, where Jbar is the
 /// mean of J over the cell: displacement quadratic, pressure constant a cell (the stable P2-P0 pair), so that
 /// kappa/mu of 1000 does not lock. 4 integration points. Exact tangent.
@@ -26,20 +34,16 @@ public:
   void evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &local) const override;
 
 private:
-  struct IntegrationPoint
-  {
-    Eigen::Matrix<double, 3, 10> gradient; ///< of the shape functions in the rest frame, 1/mm
-    double volume = 0;                     ///< weight times Jacobian, mm^3
-  };
   struct Cell
   {
     Eigen::Matrix<int, 10, 1> nodes;
-    IntegrationPoint points[4];
+    TetrahedronPoint points[4];
     double volume = 0; ///< mm^3
   };
 
   std::string name_;
-  dataset::YeohMaterial material_;
+  Yeoh isochoric_; ///< the law without its volumetric part
+  double kappa_;
   int first_unknown_;
   dataset::Points rest_;
   std::vector<Cell> cells_;

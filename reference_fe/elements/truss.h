@@ -13,7 +13,8 @@ namespace pelvireg::reference_fe
 /// One straight bar between two nodes, or between a node and a fixed point.
 struct Bar
 {
-  std::vector<SurfaceNode> nodes; ///< one or two, side 0
+  std::string group;                                   ///< "cardinal_left", …
+  std::vector<SurfaceNode> nodes;                      ///< one or two, side 0
   Eigen::Vector3d fixed_end = Eigen::Vector3d::Zero(); ///< mm; used when there is one node
   double area = 0;                                     ///< rest section, mm^2
   dataset::YeohMaterial material;                      ///< kappa is not used: the bar keeps its volume
@@ -25,10 +26,10 @@ struct UniaxialResponse
   double energy = 0, stress = 0, modulus = 0;
 };
 
-/// Tension: incompressible Yeoh, I1 = lambda^2 + 2 / lambda, nominal stress 2 (lambda - lambda^-2) sum i C_i0 (I1 - 3)^(i-1).
-/// Compression: a bar is a strand of fibres that buckles. Its stress follows the same slope E = 6 C10 at lambda = 1 and
-/// levels off at 2 % strain, E (1 - r) d tanh((lambda - 1)/d) + E r (lambda - 1) with d = 0.02, r = 0.001: once
-/// continuously differentiable, and never a zero stiffness.
+/// Tension: incompressible Yeoh, I1 = lambda^2 + 2 / lambda, nominal stress 2 (lambda - lambda^-2) sum i C_i0 (I1 -
+/// 3)^(i-1). Compression: a bar is a strand of fibres that buckles. Its stress follows the same slope E = 6 C10 at
+/// lambda = 1 and levels off at 2 % strain, E (1 - r) d tanh((lambda - 1)/d) + E r (lambda - 1) with d = 0.02, r =
+/// 0.001: once continuously differentiable, and never a zero stiffness.
 UniaxialResponse uniaxial_response(const dataset::YeohMaterial &material, double lambda);
 
 /// Hyperelastic bars at finite strain: energy A L W(l / L).
