@@ -1,0 +1,35 @@
+// The words of the command line. Each function adds a group of commands to the program.
+#pragma once
+
+#include "validation/cli/stages.h"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string>
+
+namespace pelvireg::cli
+{
+/// What the command line asks for.
+struct Invocation
+{
+  std::string command_line;     ///< as typed, for the manifest
+  std::function<void()> action; ///< set by the command that was given
+};
+
+void add_case_commands(CLI::App &program, Invocation &invocation);  ///< cases, anatomy
+void add_stage_commands(CLI::App &program, Invocation &invocation); ///< reference, observe, register, evaluate, report
+void add_run_command(CLI::App &program, Invocation &invocation);    ///< run
+void add_export_command(CLI::App &program, Invocation &invocation); ///< export
+
+/// The name of a case in files: a built-in name as it is, a path without folder and extension.
+std::string case_label(const std::string &name_or_path);
+
+/// "--jobs N", at most the machine's threads by default.
+void add_jobs_option(CLI::App &command, int &jobs);
+/// "--samples N --spread X --seed N"
+void add_sample_options(CLI::App &command, SampleSettings &settings);
+
+/// error_table.txt on standard output.
+void print_error_table(const ResultDirectory &directory);
+} // namespace pelvireg::cli

@@ -1,0 +1,102 @@
+#include "validation/cli/commands.h"
+#include "validation/cli/stages.h"
+#include "validation/runner/register.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+namespace pelvireg::cli
+{
+namespace
+{
+struct Arguments
+{
+  std::string directory;
+  std::vector<std::string> conditions = runner::condition_names();
+  SampleSettings settings;
+  int jobs = 1;
+};
+
+using Work = std::function<void(ResultDirectory &, const Arguments &)>;
+
+/// A command on one result directory.
+CLI::App *add_command(CLI::App &program, Invocation &invocation, const std::shared_ptr<Arguments> &arguments,
+                      const std::string &name, const std::string &description, const Work &work)
+{
+  CLI::App *command = program.add_subcommand(name, description);
+  command->add_option("DIR", arguments->directory, "Result directory")->required();
+  command->callback(
+      [&invocation, arguments, work]
+      {
+        invocation.action = [&invocation, arguments, work]
+        {
+          ResultDirectory directory(arguments->directory, invocation.command_line, ResultDirectory::Missing::refuse);
+          work(directory, *arguments);
+        };
+      });
+  return command;
+}
+
+void add_register(CLI::App &program, Invocation &invocation)
+{
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *command = add_command(program, invocation, arguments, "register",
+                                  "Play the outlines to the registration: estimate-CONDITION.h5",
+                                  [](ResultDirectory &directory, const Arguments &given)
+                                  {
+                                    for (const std::string &condition : given.conditions)
+                                      make_estimate(directory, condition, given.settings, given.jobs);
+                                  });
+  command->add_option("--condition", arguments->conditions, "Which constraints hold; all conditions when not given")
+      ->check(CLI::IsMember(runner::condition_names()));
+  add_sample_options(*command, arguments->settings);
+  add_jobs_option(*command, arguments->jobs);
+  command->footer("Examples:\n  pelvireg register out/t005\n  pelvireg register out/t005 --condition full\n"
+                  "  pelvireg register out/t005 --samples 100 --spread 0.10 --seed 1 --jobs 2");
+}
+} // namespace
+
+void print_error_table(const ResultDirectory &directory)
+{
+  std::ostringstream table;
+  table << std::ifstream(directory.path() / "error_table.txt").rdbuf();
+  fmt::print("\n{}", table.str());
+}
+
+void add_stage_commands(CLI::App &program, Invocation &invocation)
+{
+  const auto reference = std::make_shared<Arguments>();
+  CLI::App *command =
+      add_command(program, invocation, reference, "reference", "Move the pelvis with the reference solver: truth.h5",
+                  [](ResultDirectory &directory, const Arguments &given) { make_truth(directory, given.jobs); });
+  add_jobs_option(*command, reference->jobs);
+  command->footer("Example:\n  pelvireg reference out/t005 --jobs 2");
+
+  command = add_command(program, invocation, std::make_shared<Arguments>(), "observe",
+                        "Outlines in the image plane and validation slices: observations.h5",
+                        [](ResultDirectory &directory, const Arguments &) { make_observations(directory); });
+  command->footer("Example:\n  pelvireg observe out/t005");
+
+  add_register(program, invocation);
+
+  const auto evaluate = std::make_shared<Arguments>();
+  command = add_command(program, invocation, evaluate, "evaluate",
+                        "Errors of every estimate in the directory: errors_by_*.csv, summary.json",
+                        [](ResultDirectory &directory, const Arguments &given)
+                        {
+                          make_errors(directory, given.jobs);
+                          print_error_table(directory);
+                        });
+  add_jobs_option(*command, evaluate->jobs);
+  command->footer("Example:\n  pelvireg evaluate out/t005");
+
+  const auto report = std::make_shared<Arguments>();
+  command = add_command(program, invocation, report, "report", "The page for people: report.html",
+                        [](ResultDirectory &directory, const Arguments &given) { make_report(directory, given.jobs); });
+  add_jobs_option(*command, report->jobs);
+  command->footer("Example:\n  pelvireg report out/t005");
+}
+} // namespace pelvireg::cli

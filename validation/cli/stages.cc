@@ -1,0 +1,177 @@
+#include "validation/cli/stages.h"
+
+#include "reference_fe/reference.h"
+#include "synthetic/anatomy/case.h"
+#include "synthetic/dataset/atomic_file.h"
+#include "synthetic/observation/observe.h"
+#include "validation/cli/sha256.h"
+#include "validation/runner/error_table.h"
+#include "validation/runner/result_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pelvireg::cli
+{
+namespace
+{
+Notes to_notes(const runner::StepTiming &timing)
+{
+  return {{"n_steps", timing.n_steps},
+          {"median_ms", timing.median_ms},
+          {"p95_ms", timing.p95_ms},
+          {"max_ms", timing.max_ms}};
+}
+} // namespace
+
+std::vector<std::string> estimate_files(const ResultDirectory &directory)
+{
+  std::vector<std::string> files;
+  for (const auto &entry : std::filesystem::directory_iterator(directory.path()))
+  {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("estimate-", 0) == 0 && entry.path().extension() == ".h5")
+      files.push_back(name);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<runner::StepTiming> recorded_timings(const ResultDirectory &directory)
+{
+  std::vector<runner::StepTiming> timings;
+  for (const std::string &condition : runner::condition_names())
+  {
+    const StageRecord *maker = directory.manifest().maker_of("estimate-" + condition + ".h5");
+    if (maker && maker->notes.contains("median_ms"))
+      timings.push_back({.condition = condition,
+                         .n_steps = static_cast<int>(maker->notes.at("n_steps")),
+                         .median_ms = maker->notes.at("median_ms"),
+                         .p95_ms = maker->notes.at("p95_ms"),
+                         .max_ms = maker->notes.at("max_ms")});
+  }
+  return timings;
+}
+
+Judgement judge(const ResultDirectory &directory, int jobs, Progress &progress)
+{
+  Judgement judgement{.anatomy = dataset::load_anatomy(directory.path() / "anatomy.h5"),
+                      .truth = dataset::load_truth(directory.path() / "truth.h5"),
+                      .estimates = {},
+                      .evaluation = {}};
+  for (const std::string &file : estimate_files(directory))
+    judgement.estimates.push_back(dataset::load_estimate(directory.path() / file));
+  judgement.evaluation = runner::evaluate(judgement.anatomy, judgement.truth, judgement.estimates,
+                                          {.n_threads = jobs, .progress = progress.callback()});
+  return judgement;
+}
+
+std::vector<std::string> stage_order()
+{
+  std::vector<std::string> names = {"anatomy", "reference", "observe"};
+  for (const std::string &condition : runner::condition_names())
+    names.push_back("register " + condition);
+  names.insert(names.end(), {"evaluate", "report"});
+  return names;
+}
+
+void make_anatomy(ResultDirectory &directory, const std::string &case_name, const std::string &text)
+{
+  directory.run({.name = "anatomy",
+                 .code = {"synthetic/anatomy", "synthetic/dataset"},
+                 .options = "case " + case_name + " " + sha256_of_text(text),
+                 .inputs = {},
+                 .outputs = {"anatomy.h5", "case.toml"},
+                 .work = [&](Progress &) -> Notes
+                 {
+                   const dataset::Anatomy anatomy = anatomy::build_anatomy(text, case_name);
+                   dataset::write_text_file(directory.path() / "case.toml", text);
+                   save(anatomy, directory.path() / "anatomy.h5");
+                   return {};
+                 }});
+}
+
+void make_truth(ResultDirectory &directory, int jobs)
+{
+  directory.run({.name = "reference",
+                 .code = {"reference_fe", "synthetic/dataset"},
+                 .options = "",
+                 .inputs = {"anatomy.h5"},
+                 .outputs = {"truth.h5"},
+                 .work = [&](Progress &progress) -> Notes
+                 {
+                   const dataset::Anatomy anatomy = dataset::load_anatomy(directory.path() / "anatomy.h5");
+                   save(reference_fe::solve_reference(anatomy, {.n_threads = jobs, .progress = progress.callback()}),
+                        directory.path() / "truth.h5");
+                   return {};
+                 }});
+}
+
+void make_observations(ResultDirectory &directory)
+{
+  directory.run({.name = "observe",
+                 .code = {"synthetic/observation", "synthetic/dataset"},
+                 .options = "",
+                 .inputs = {"anatomy.h5", "truth.h5"},
+                 .outputs = {"observations.h5"},
+                 .work = [&](Progress &) -> Notes
+                 {
+                   const dataset::Anatomy anatomy = dataset::load_anatomy(directory.path() / "anatomy.h5");
+                   const dataset::Truth truth = dataset::load_truth(directory.path() / "truth.h5");
+                   save(observation::observe(anatomy, truth), directory.path() / "observations.h5");
+                   return {};
+                 }});
+}
+
+void make_estimate(ResultDirectory &directory, const std::string &condition, const SampleSettings &settings, int jobs)
+{
+  const std::string file = "estimate-" + condition + ".h5";
+  directory.run(
+      {.name = "register " + condition,
+       .code = {"registration", "validation/runner", "synthetic/dataset"},
+       .options = fmt::format("samples {} spread {} seed {}", settings.samples, settings.spread, settings.seed),
+       .inputs = {"anatomy.h5", "observations.h5"},
+       .outputs = {file},
+       .work = [&](Progress &progress) -> Notes
+       {
+         const dataset::Anatomy anatomy = dataset::load_anatomy(directory.path() / "anatomy.h5");
+         const dataset::Observations observations = dataset::load_observations(directory.path() / "observations.h5");
+         runner::RunnerOptions options;
+         options.samples = settings.samples;
+         options.spread = settings.spread;
+         options.seed = settings.seed;
+         options.n_threads = jobs;
+         options.progress = progress.callback();
+         runner::StepTiming timing;
+         save(runner::run_registration(anatomy, observations, condition, options, &timing), directory.path() / file);
+         return to_notes(timing);
+       }});
+}
+
+void make_errors(ResultDirectory &directory, int jobs)
+{
+  const std::vector<std::string> estimates = estimate_files(directory);
+  std::vector<std::string> inputs = {"anatomy.h5", "truth.h5"};
+  inputs.insert(inputs.end(), estimates.begin(), estimates.end());
+  const std::vector<runner::StepTiming> timings = recorded_timings(directory);
+  std::string options;
+  for (const runner::StepTiming &timing : timings)
+    // summary.json and the table print them
+    options += fmt::format("{} {} {} {} {}\n", timing.condition, timing.n_steps, timing.median_ms, timing.p95_ms,
+                           timing.max_ms);
+  directory.run({.name = "evaluate",
+                 .code = {"validation/metrics", "validation/runner", "synthetic/dataset"},
+                 .options = options,
+                 .inputs = inputs,
+                 .outputs = {"errors_by_step.csv", "errors_by_slice.csv", "summary.json", "error_table.txt"},
+                 .work = [&](Progress &progress) -> Notes
+                 {
+                   const runner::Evaluation evaluation = judge(directory, jobs, progress).evaluation;
+                   runner::write_result_files(evaluation, timings, directory.path());
+                   dataset::write_text_file(directory.path() / "error_table.txt",
+                                            runner::error_table(evaluation, timings));
+                   return {};
+                 }});
+}
+} // namespace pelvireg::cli

@@ -1,0 +1,53 @@
+// The stages of the chain, each from files to files in one result directory.
+#pragma once
+
+#include "validation/cli/stage_cache.h"
+#include "validation/runner/evaluate.h"
+#include "validation/runner/register.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pelvireg::cli
+{
+/// The randomised runs of the registration.
+struct SampleSettings
+{
+  int samples = 0;      ///< beside the nominal run
+  double spread = 0.10; ///< of Young's moduli, as a fraction
+  std::uint64_t seed = 1;
+};
+
+/// case.toml, anatomy.h5. `text` is the case file's content.
+void make_anatomy(ResultDirectory &directory, const std::string &case_name, const std::string &text);
+/// truth.h5
+void make_truth(ResultDirectory &directory, int jobs);
+/// observations.h5
+void make_observations(ResultDirectory &directory);
+/// estimate-<condition>.h5
+void make_estimate(ResultDirectory &directory, const std::string &condition, const SampleSettings &settings, int jobs);
+/// errors_by_step.csv, errors_by_slice.csv, summary.json, error_table.txt, from every estimate in the directory
+void make_errors(ResultDirectory &directory, int jobs);
+/// report.html, pictures/*.png
+void make_report(ResultDirectory &directory, int jobs);
+
+/// Everything in the directory, loaded and judged.
+struct Judgement
+{
+  dataset::Anatomy anatomy;
+  dataset::Truth truth;
+  std::vector<dataset::Estimate> estimates;
+  runner::Evaluation evaluation;
+};
+Judgement judge(const ResultDirectory &directory, int jobs, Progress &progress);
+
+/// Step times of the estimates in the directory, as their register stages noted them.
+std::vector<runner::StepTiming> recorded_timings(const ResultDirectory &directory);
+
+/// Names of the stages in the order in which they run.
+std::vector<std::string> stage_order();
+
+/// File names of the estimates in the directory, sorted.
+std::vector<std::string> estimate_files(const ResultDirectory &directory);
+} // namespace pelvireg::cli
