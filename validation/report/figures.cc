@@ -161,9 +161,10 @@ double fit(PlaneView &view, const std::vector<Cuts> &all)
         lower = lower.cwiseMin(view.flat(segment.ends[0].position));
         upper = upper.cwiseMax(view.flat(segment.ends[0].position));
       }
-  constexpr double width = 560, margin = 24;
-  view.scale = (width - 2 * margin) / std::max(upper.x() - lower.x(), 1.0);
-  view.x_offset = margin - view.scale * lower.x();
+  constexpr double width = 560, greatest_height = 560, margin = 24;
+  const Eigen::Vector2d extent = (upper - lower).cwiseMax(1.0);
+  view.scale = std::min((width - 2 * margin) / extent.x(), greatest_height / extent.y());
+  view.x_offset = width / 2 - view.scale * (lower.x() + upper.x()) / 2;
   view.y_offset = margin + 24 - view.scale * lower.y();
   return view.scale * (upper.y() - lower.y()) + 2 * margin + 48;
 }

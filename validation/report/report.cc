@@ -31,8 +31,8 @@ std::string error_table_html(const runner::Evaluation &evaluation)
   std::vector<std::vector<std::string>> rows;
   for (const std::string &condition : evaluation.conditions)
   {
-    std::vector<std::string> last = {condition + ", last step"}, largest = {"largest over all steps"},
-                             reduction = {"below unregistered, last step"};
+    std::vector<std::string> last = {condition + ", last step"}, largest = {condition + ", largest over all steps"},
+                             reduction = {condition + ", below unregistered, last step"};
     for (const std::string &organ : organ_names)
     {
       const auto by_step = runner::error_by_step(evaluation, condition, organ);
@@ -64,9 +64,10 @@ std::string claims_html(const std::vector<runner::ClaimVerdict> &claims)
                      "<th scope=\"col\">The paper's claim</th><th scope=\"col\">Paper</th><th scope=\"col\">Ours</th>"
                      "<th scope=\"col\">What we ask for</th></tr></thead><tbody>\n";
   for (const runner::ClaimVerdict &claim : claims)
-    html +=
-        fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", verdict_mark(claim.verdict),
-                    escape(claim.claim), escape(claim.paper), escape(claim.ours), escape(claim.criterion));
+    html += fmt::format("<tr><td>{}</td><td>{}</td><td data-label=\"Paper\">{}</td><td data-label=\"Ours\">{}</td>"
+                        "<td data-label=\"We ask for\">{}</td></tr>\n",
+                        verdict_mark(claim.verdict), escape(claim.claim), escape(claim.paper), escape(claim.ours),
+                        escape(claim.criterion));
   return html + "</tbody></table></div>\n";
 }
 
@@ -165,7 +166,7 @@ std::string provenance_html(const std::vector<ProvenanceEntry> &entries)
   std::vector<std::vector<std::string>> rows;
   for (const ProvenanceEntry &entry : entries)
     rows.push_back({entry.name, entry.value});
-  return table({"Item", "Value"}, rows);
+  return "<div class=\"provenance\">" + table({"Item", "Value"}, rows) + "</div>\n";
 }
 } // namespace
 

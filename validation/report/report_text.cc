@@ -19,7 +19,7 @@ p,dl{max-width:75ch}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums}
 th,td{padding:.3em .7em;border-bottom:1px solid #ddd;text-align:right;vertical-align:top}
 th:first-child{text-align:left}
-tbody th{font-weight:400}
+tbody th{font-weight:400;min-width:9em}
 thead th{border-bottom:2px solid #666}
 .claims td,.claims th{text-align:left;min-width:9em}
 .claims td:nth-child(2),.claims td:nth-child(4),.claims td:nth-child(5){min-width:15em}
@@ -37,7 +37,13 @@ svg,img{display:block;width:100%;height:auto}
 figcaption{font-size:.9rem;color:#333}
 dt{font-weight:600;margin-top:.6em}
 dd{margin:0 0 0 1.2em}
-td,tbody th{overflow-wrap:anywhere}
+.provenance td{overflow-wrap:anywhere;text-align:left;min-width:12em}
+@media(max-width:700px){
+.claims thead{display:none}
+.claims tr{display:block;border-bottom:1px solid #999;padding:.6em 0}
+.claims td{display:block;border:0;padding:.1em 0;min-width:0}
+.claims td[data-label]:not([data-label=""])::before{content:attr(data-label) ": ";font-weight:600}
+}
 @media print{h2{break-after:avoid}figure{break-inside:avoid}}
 )";
 
