@@ -82,9 +82,11 @@ struct Options
 enum class StepStatus
 {
   ok,
-  no_control_points,   ///< nothing to drive the step: positions unchanged
-  not_finite,          ///< NaN in the observation or the solution: positions unchanged
-  factorisation_failed ///< positions unchanged
+  no_control_points,    ///< no control point was offered or accepted: nothing drives the step, positions unchanged
+  not_finite,           ///< NaN in the observation or the solution: positions unchanged
+  factorisation_failed, ///< positions unchanged
+  invalid_observation   ///< unknown body, body without outer surface, unequal counts or a plane normal that is not unit:
+                        ///< positions unchanged
 };
 
 /// A sentence a status, for files and tables.
@@ -101,7 +103,20 @@ struct StepSummary
   double attachment_residual = 0;    ///< mm, largest norm over attached nodes
   double out_of_plane_force = 0;     ///< N, largest |(H^T lambda) . plane normal| of a node over the sliding rows
   double in_plane_force = 0;         ///< N, largest in-plane norm of the same
-  int sweeps = 0;
+  int sweeps = 0; ///< of the constraint solve: 1 for the direct solution, more when it was refined
+};
+
+/// Wall time of the last step by phase, ms. Kept apart from StepSummary, which is the same on every run.
+struct PhaseTimes
+{
+  double match = 0;      ///< matching, attachment rows
+  double assemble = 0;   ///< rotations, forces, matrices
+  double factorise = 0;
+  double free_motion = 0;
+  double compliance = 0; ///< W
+  double solve = 0;      ///< multipliers
+  double correct = 0;
+  double summarise = 0;  ///< residuals on a fresh matching
 };
 
 /// The registration. Not copyable; movable. prepare() allocates, update() does not in the steady state.
@@ -117,12 +132,15 @@ public:
   /// bad options, an inverted element, an index out of range or an open outer surface.
   void prepare(const Model &model, const Options &options);
 
-  /// One simulation step (paper, equations 7 to 10). A numerical failure is a status, never an exception; the
+  /// One simulation step (paper, equations 7 to 10). prepare() must have been called. A numerical failure is a status, never an exception; the
   /// positions keep the last valid state.
   StepSummary update(const Observation &observation);
 
-  /// Current positions of a body, n x 3, mm.
+  /// Current positions of a body (index into Model::bodies), n x 3, mm. A body that takes no part stays at rest.
   const Points &positions(int body) const;
+
+  /// Wall time of the last update().
+  const PhaseTimes &phase_times() const;
 
 private:
   struct Implementation;

@@ -1,0 +1,55 @@
+#include "registration/solver/block_matrix.h"
+
+#include <algorithm>
+
+namespace pelvireg::registration
+{
+SymmetricBlockMatrix::SymmetricBlockMatrix(int n_blocks, const std::vector<std::vector<int>> &cliques)
+    : n_blocks_(n_blocks), block_starts_(n_blocks + 1, 0)
+{
+  std::vector<std::vector<int>> rows_of(n_blocks);
+  for (int block = 0; block < n_blocks; ++block)
+    rows_of[block].push_back(block);
+  for (const std::vector<int> &clique : cliques)
+    for (const int column : clique)
+      for (const int row : clique)
+        if (row > column)
+          rows_of[column].push_back(row);
+  for (int column = 0; column < n_blocks; ++column)
+  {
+    std::vector<int> &rows = rows_of[column];
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    block_rows_.insert(block_rows_.end(), rows.begin(), rows.end());
+    block_starts_[column + 1] = static_cast<int>(block_rows_.size());
+  }
+
+  column_starts_.push_back(0);
+  for (int column = 0; column < n_blocks; ++column)
+    for (int c = 0; c < 3; ++c)
+    {
+      for (const int row : rows_of[column])
+        for (int r = 0; r < 3; ++r)
+          row_indices_.push_back(3 * row + r);
+      column_starts_.push_back(static_cast<int>(row_indices_.size()));
+    }
+  values_.assign(row_indices_.size(), 0.0);
+}
+
+BlockSlot SymmetricBlockMatrix::slot(int row, int column) const
+{
+  const auto first = block_rows_.begin() + block_starts_[column];
+  const auto last = block_rows_.begin() + block_starts_[column + 1];
+  const int place = static_cast<int>(std::lower_bound(first, last, row) - first);
+  return {9 * block_starts_[column] + 3 * place, 3 * static_cast<int>(last - first)};
+}
+
+void SymmetricBlockMatrix::set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
+
+void SymmetricBlockMatrix::add_to_diagonal(int block, double value)
+{
+  const BlockSlot diagonal = slot(block, block);
+  for (int c = 0; c < 3; ++c)
+    values_[diagonal.offset + c * diagonal.stride + c] += value;
+}
+} // namespace pelvireg::registration

@@ -1,0 +1,92 @@
+// One body of the block-diagonal system: elements, matrix A, factor, free motion and its part of W.
+#pragma once
+
+#include "registration/constraints/constraint_rows.h"
+#include "registration/elements/hexahedron.h"
+#include "registration/elements/tetrahedron.h"
+#include "registration/registration.h"
+#include "registration/solver/block_matrix.h"
+#include "registration/solver/compliance.h"
+#include "registration/solver/supernodal_factor.h"
+
+#include <optional>
+#include <vector>
+
+namespace pelvireg::registration
+{
+/// State and linear algebra of one body. Bodies share nothing, so that several threads may each work on one.
+class BodySolver
+{
+public:
+  /// `body` must have passed check_model(). time_step in s.
+  BodySolver(const Body &body, double time_step);
+
+  const Points &positions() const { return positions_; }
+  void set_positions(const Points &positions) { positions_ = positions; }
+
+  /// A = M / h^2 + K(q) and b = -F(q) at the current positions (paper, equation 8, times 1/h).
+  void assemble();
+  /// False when A is not positive definite.
+  bool factorise() { return n_unknowns() == 0 || factor_->factorise(matrix_); }
+  /// x_free = A^-1 b.
+  void predict_free_motion();
+
+  /// Take the part of the constraint rows that touches this body; `body` is this body's index in them.
+  void gather_rows(const ConstraintRows &rows, int body);
+  /// Its part of W = H A^-1 H^T over touching_rows().
+  void compute_compliance();
+  /// Global indices of the rows that touch this body, ascending.
+  const std::vector<int> &touching_rows() const { return touching_rows_; }
+  /// Lower triangle; size touching_rows().size().
+  const Eigen::MatrixXd &compliance() const { return compliance_.result(); }
+  /// (H x_free) of touching row k, mm.
+  double free_gap_change(int k) const;
+
+  /// positions + x_free + A^-1 H^T lambda, into corrected_positions(); false when not finite.
+  bool correct(const Eigen::VectorXd &multipliers);
+  const Points &corrected_positions() const { return corrected_; }
+  /// Make the corrected positions current.
+  void accept() { positions_.swap(corrected_); }
+
+  int n_unknowns() const { return 3 * n_free_nodes_; }
+  const SymmetricBlockMatrix &matrix() const { return matrix_; }
+  /// b = -F(q) over the unknowns, N.
+  const Eigen::VectorXd &load() const { return load_; }
+  /// Index of the first of a node's three unknowns; -1 when the node is fixed.
+  int first_unknown(int node) const { return first_unknown_[node]; }
+
+private:
+  /// One 3 x 3 block of one element's stiffness and its place in A.
+  struct Contribution
+  {
+    int a = 0, b = 0;
+    BlockSlot slot;
+  };
+  template <class Element> struct ElementGroup
+  {
+    std::vector<Element> elements;
+    std::vector<std::array<int, Element::n_nodes>> nodes;
+    std::vector<Contribution> contributions;
+    std::vector<int> contribution_starts{0};
+  };
+
+  template <class Element, class Connectivity>
+  void add_elements(ElementGroup<Element> &group, const Connectivity &cells, const Body &body);
+  template <class Element> void place_blocks(ElementGroup<Element> &group);
+  template <class Element> void assemble_group(const ElementGroup<Element> &group);
+  void number_unknowns(const Body &body);
+
+  Points positions_, corrected_;
+  ElementGroup<Tetrahedron> tetrahedra_;
+  ElementGroup<Hexahedron> hexahedra_;
+  int n_free_nodes_ = 0;
+  std::vector<int> first_unknown_;
+  std::vector<double> inertia_; ///< m / h^2 of each node, N/mm
+  SymmetricBlockMatrix matrix_;
+  std::optional<SupernodalFactor> factor_;
+  Eigen::VectorXd load_, free_motion_, correction_;
+  std::vector<int> touching_rows_;
+  SparseRows rows_;
+  Compliance compliance_;
+};
+} // namespace pelvireg::registration
