@@ -3,7 +3,10 @@
 #include "registration/elements/hexahedron.h"
 #include "registration/elements/tetrahedron.h"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -66,7 +69,8 @@ void check_orientation(const Body &body, const std::string &where)
   for (Eigen::Index cell = 0; cell < body.tets.rows(); ++cell)
   {
     const auto rest = gather<Tetrahedron>(body, body.tets, cell);
-    const double volume = (rest.col(1) - rest.col(0)).cross(rest.col(2) - rest.col(0)).dot(rest.col(3) - rest.col(0)) / 6;
+    const double volume =
+        (rest.col(1) - rest.col(0)).cross(rest.col(2) - rest.col(0)).dot(rest.col(3) - rest.col(0)) / 6;
     require(volume > 0, where, ": tetrahedron ", cell, " has volume ", volume,
             " mm^3, must be positive; reorder its nodes or repair the mesh");
   }
@@ -82,7 +86,8 @@ void check_orientation(const Body &body, const std::string &where)
 template <class Connectivity> std::vector<int> components(Eigen::Index n_nodes, const Connectivity &cells)
 {
   std::vector<int> parent(n_nodes, -1);
-  const auto root = [&](int node) {
+  const auto root = [&](int node)
+  {
     while (parent[node] != node)
       node = parent[node] = parent[parent[node]];
     return node;
@@ -135,8 +140,8 @@ void check_outer_surface(const Body &body, const std::string &where)
     volume += corner[0].dot(corner[1].cross(corner[2])) / 6;
   }
   for (const auto &[edge, count] : directed)
-    require(directed.contains({edge.second, edge.first}), where, ": the outer surface is open at edge ", edge.first, "-",
-            edge.second, ", must be closed; cap its open ends");
+    require(directed.contains({edge.second, edge.first}), where, ": the outer surface is open at edge ", edge.first,
+            "-", edge.second, ", must be closed; cap its open ends");
   require(volume > 0, where, ": the outer surface encloses ", volume,
           " mm^3, must be positive; turn its triangles outward");
 }

@@ -5,13 +5,16 @@
 
 namespace pelvireg::registration
 {
-/// Throws std::invalid_argument with one sentence (what, where, got, allowed, remedy) for: a body with both or neither kind
-/// of element, a value out of range, an index out of range, a position that is not finite, a node in no element, an
-/// inverted or flat element, a disconnected organ, an outer surface that is open, not manifold or inward, an attachment
-/// to a body without wall triangles.
+/// Throws std::invalid_argument with one sentence (what, where, got, allowed, remedy) for: a body with both or neither
+/// kind of element, a value out of range, an index out of range, a position that is not finite, a node in no element,
+/// an inverted or flat element, a disconnected organ, an outer surface that is open, not manifold or inward, an
+/// attachment to a body without wall triangles.
 void check_model(const Model &model);
 
 /// True for a body that control points may be matched to (it has an outer surface). Any other body only serves the
 /// anatomical constraints.
-inline bool is_organ(const Body &body) { return body.outer_triangles.rows() > 0; }
+inline bool is_organ(const Body &body)
+{
+  return body.outer_triangles.rows() > 0;
+}
 } // namespace pelvireg::registration

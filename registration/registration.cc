@@ -19,7 +19,8 @@ namespace pelvireg::registration
 std::vector<std::string> Options::violations() const
 {
   std::vector<std::string> problems;
-  const auto demand = [&](bool holds, const std::string &name, double got, const std::string &allowed) {
+  const auto demand = [&](bool holds, const std::string &name, double got, const std::string &allowed)
+  {
     if (!holds)
       problems.push_back("registration option " + name + " is " + std::to_string(got) + ", must be " + allowed);
   };
@@ -51,7 +52,8 @@ std::string to_string(StepStatus status)
   case StepStatus::factorisation_failed:
     return "A matrix of the step is not positive definite; positions are unchanged.";
   case StepStatus::invalid_observation:
-    return "The observation names a body that cannot be matched, has unequal numbers of points and normals, or its plane "
+    return "The observation names a body that cannot be matched, has unequal numbers of points and normals, or its "
+           "plane "
            "normal is not unit; positions are unchanged.";
   }
   return "unknown status";
@@ -92,8 +94,7 @@ bool plane_cuts(const Triangles &surface, const Points &positions, const Observa
   bool has_left = false, has_right = false;
   for (const int node : surface.reshaped())
   {
-    const double side =
-        (positions.row(node).transpose() - observation.plane_origin).dot(observation.plane_normal);
+    const double side = (positions.row(node).transpose() - observation.plane_origin).dot(observation.plane_normal);
     has_left = has_left || side >= 0;
     has_right = has_right || side <= 0;
   }
@@ -133,7 +134,7 @@ struct Registration::Implementation
   ConstraintRows rows;
   ConstraintSolver constraint_solver;
   std::vector<double> remaining_gaps; ///< after the free motion, mm, one a row
-  std::vector<char> succeeded; ///< a flag a body
+  std::vector<char> succeeded;        ///< a flag a body
   std::vector<Points> nodal_forces;
   PhaseTimes times;
 };
@@ -166,7 +167,8 @@ StepSummary Registration::Implementation::update(const Observation &observation)
   StepSummary summary;
   times = {};
   Stopwatch watch;
-  const auto fail = [&](StepStatus status) {
+  const auto fail = [&](StepStatus status)
+  {
     summary.status = status;
     return summary;
   };
@@ -186,10 +188,12 @@ StepSummary Registration::Implementation::update(const Observation &observation)
   times.factorise = watch.lap();
   threads.run(active, [this](int body) { bodies[body].predict_free_motion(); });
   times.free_motion = watch.lap();
-  threads.run(active, [this](int body) {
-    bodies[body].gather_rows(rows, body);
-    bodies[body].compute_compliance();
-  });
+  threads.run(active,
+              [this](int body)
+              {
+                bodies[body].gather_rows(rows, body);
+                bodies[body].compute_compliance();
+              });
   times.compliance = watch.lap();
   if (!solve_constraints(summary))
     return fail(StepStatus::factorisation_failed);
@@ -282,8 +286,7 @@ bool Registration::Implementation::solve_constraints(StepSummary &summary)
 
 bool Registration::Implementation::correct_bodies()
 {
-  threads.run(active,
-              [this](int body) { succeeded[body] = bodies[body].correct(constraint_solver.multipliers()); });
+  threads.run(active, [this](int body) { succeeded[body] = bodies[body].correct(constraint_solver.multipliers()); });
   if (!std::all_of(active.begin(), active.end(), [this](int body) { return succeeded[body] != 0; }))
     return false;
   for (const int body : active)
@@ -324,9 +327,9 @@ void Registration::Implementation::measure_residuals(const Observation &observat
     }
   summary.mean_in_plane_residual = n_accepted > 0 ? sum / n_accepted : 0;
   for (const AttachedNode &node : attached_nodes)
-    summary.attachment_residual = std::max(
-        summary.attachment_residual,
-        attachment_gap(node, bodies[node.body_a].positions(), bodies[node.body_b].positions()).norm());
+    summary.attachment_residual =
+        std::max(summary.attachment_residual,
+                 attachment_gap(node, bodies[node.body_a].positions(), bodies[node.body_b].positions()).norm());
 }
 
 Registration::Registration() = default;

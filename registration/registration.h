@@ -19,14 +19,14 @@ using Hexes = Eigen::Matrix<int, Eigen::Dynamic, 8, Eigen::RowMajor>;
 struct Body
 {
   std::string name;
-  Points rest_positions;         ///< n x 3, mm
-  Tets tets;                     ///< positive volume
-  Hexes hexes;                   ///< VTK order
-  double youngs_modulus = 0;     ///< MPa
+  Points rest_positions;     ///< n x 3, mm
+  Tets tets;                 ///< positive volume
+  Hexes hexes;               ///< VTK order
+  double youngs_modulus = 0; ///< MPa
   double poisson_ratio = 0.45;
-  double density = 1.05e-9;      ///< t/mm^3
-  std::vector<int> fixed_nodes;  ///< 0-based
-  Triangles outer_triangles;     ///< closed, outward; empty for a body that is never matched or attached to
+  double density = 1.05e-9;     ///< t/mm^3
+  std::vector<int> fixed_nodes; ///< 0-based
+  Triangles outer_triangles;    ///< closed, outward; empty for a body that is never matched or attached to
   /// One flag a triangle: control points may be matched to it and attachments may hold on it. Caps are not.
   std::vector<char> is_wall;
 };
@@ -65,15 +65,15 @@ struct Observation
 
 struct Options
 {
-  double time_step = 0.02;             ///< h of equation 8, s, > 0
-  bool use_attachments = true;         ///< anatomical constraints chi and the bodies that only serve them
-  double max_match_distance = 30;      ///< mm: a control point whose nearest compatible triangle is farther is refused
-  double min_normal_agreement = 0.5;   ///< least cosine between the contour's and the triangle's in-plane normal
-  double sliding_compliance = 0;       ///< mm/N, per sliding row
-  double attachment_compliance = 0;    ///< mm/N, per attachment row (added to Attachment::compliance)
+  double time_step = 0.02;           ///< h of equation 8, s, > 0
+  bool use_attachments = true;       ///< anatomical constraints chi and the bodies that only serve them
+  double max_match_distance = 30;    ///< mm: a control point whose nearest compatible triangle is farther is refused
+  double min_normal_agreement = 0.5; ///< least cosine between the contour's and the triangle's in-plane normal
+  double sliding_compliance = 0;     ///< mm/N, per sliding row
+  double attachment_compliance = 0;  ///< mm/N, per attachment row (added to Attachment::compliance)
   int max_sweeps = 500;
-  double tolerance_mm = 1e-6;          ///< the constraint solve stops when the largest change of a row's gap is below
-  int n_threads = 1;                   ///< results are bit-identical for every value
+  double tolerance_mm = 1e-6; ///< the constraint solve stops when the largest change of a row's gap is below
+  int n_threads = 1;          ///< results are bit-identical for every value
 
   /// All problems as sentences; empty when the options are usable.
   std::vector<std::string> violations() const;
@@ -85,8 +85,8 @@ enum class StepStatus
   no_control_points,    ///< no control point was offered or accepted: nothing drives the step, positions unchanged
   not_finite,           ///< NaN in the observation or the solution: positions unchanged
   factorisation_failed, ///< positions unchanged
-  invalid_observation   ///< unknown body, body without outer surface, unequal counts or a plane normal that is not unit:
-                        ///< positions unchanged
+  invalid_observation ///< unknown body, body without outer surface, unequal counts or a plane normal that is not unit:
+                      ///< positions unchanged
 };
 
 /// A sentence a status, for files and tables.
@@ -103,20 +103,20 @@ struct StepSummary
   double attachment_residual = 0;    ///< mm, largest norm over attached nodes
   double out_of_plane_force = 0;     ///< N, largest |(H^T lambda) . plane normal| of a node over the sliding rows
   double in_plane_force = 0;         ///< N, largest in-plane norm of the same
-  int sweeps = 0; ///< of the constraint solve: 1 for the direct solution, more when it was refined
+  int sweeps = 0;                    ///< of the constraint solve: 1 for the direct solution, more when it was refined
 };
 
 /// Wall time of the last step by phase, ms. Kept apart from StepSummary, which is the same on every run.
 struct PhaseTimes
 {
-  double match = 0;      ///< matching, attachment rows
-  double assemble = 0;   ///< rotations, forces, matrices
+  double match = 0;    ///< matching, attachment rows
+  double assemble = 0; ///< rotations, forces, matrices
   double factorise = 0;
   double free_motion = 0;
   double compliance = 0; ///< W
   double solve = 0;      ///< multipliers
   double correct = 0;
-  double summarise = 0;  ///< residuals on a fresh matching
+  double summarise = 0; ///< residuals on a fresh matching
 };
 
 /// The registration. Not copyable; movable. prepare() allocates, update() does not in the steady state.
@@ -132,8 +132,8 @@ public:
   /// bad options, an inverted element, an index out of range or an open outer surface.
   void prepare(const Model &model, const Options &options);
 
-  /// One simulation step (paper, equations 7 to 10). prepare() must have been called. A numerical failure is a status, never an exception; the
-  /// positions keep the last valid state.
+  /// One simulation step (paper, equations 7 to 10). prepare() must have been called. A numerical failure is a status,
+  /// never an exception; the positions keep the last valid state.
   StepSummary update(const Observation &observation);
 
   /// Current positions of a body (index into Model::bodies), n x 3, mm. A body that takes no part stays at rest.

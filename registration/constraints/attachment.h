@@ -20,8 +20,8 @@ struct AttachedNode
   double compliance = 0;                                 ///< mm/N, each axis
 };
 
-/// Bind every node of the attachment to its nearest triangle of body b at rest. `walls_of_b` holds the triangles that may
-/// carry an attachment, fitted to the rest positions, and must not be empty.
+/// Bind every node of the attachment to its nearest triangle of body b at rest. `walls_of_b` holds the triangles that
+/// may carry an attachment, fitted to the rest positions, and must not be empty.
 std::vector<AttachedNode> bind_attachment(const Attachment &attachment, const std::vector<Body> &bodies,
                                           const TriangleTree &walls_of_b, double added_compliance);
 

@@ -36,7 +36,8 @@ SlidingMatch match_control_point(const TriangleTree &tree, const Points &positio
                                  const Options &options)
 {
   const Eigen::Vector3d wanted = (contour_normal - contour_normal.dot(plane_normal) * plane_normal).normalized();
-  const auto agrees = [&](int triangle) {
+  const auto agrees = [&](int triangle)
+  {
     const Eigen::Vector3d direction = in_plane_direction(tree, positions, triangle, plane_normal);
     return !direction.isZero(0) && direction.dot(wanted) >= options.min_normal_agreement;
   };

@@ -39,9 +39,8 @@ int TriangleTree::build(int first, int count, const Points &centroids)
   int axis = 0;
   box.sizes().maxCoeff(&axis);
   const auto begin = order_.begin() + first;
-  std::sort(begin, begin + count, [&](int s, int t) {
-    return std::tuple(centroids(s, axis), s) < std::tuple(centroids(t, axis), t);
-  });
+  std::sort(begin, begin + count,
+            [&](int s, int t) { return std::tuple(centroids(s, axis), s) < std::tuple(centroids(t, axis), t); });
   const int left = build(first, count / 2, centroids);
   const int right = build(first + count / 2, count - count / 2, centroids);
   nodes_[index].left = left;
@@ -81,8 +80,8 @@ void TriangleTree::visit(int index, const Eigen::Vector3d &point, const Points &
     return;
   if (node.left >= 0)
   {
-    const bool left_first = nodes_[node.left].box.squaredExteriorDistance(point) <=
-                            nodes_[node.right].box.squaredExteriorDistance(point);
+    const bool left_first =
+        nodes_[node.left].box.squaredExteriorDistance(point) <= nodes_[node.right].box.squaredExteriorDistance(point);
     visit(left_first ? node.left : node.right, point, positions, is_compatible, best);
     visit(left_first ? node.right : node.left, point, positions, is_compatible, best);
     return;

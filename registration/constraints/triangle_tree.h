@@ -30,8 +30,8 @@ public:
   /// Adopt the current positions. Cost O(n).
   void refit(const Points &positions);
 
-  /// Nearest triangle, within max_distance (mm), that `is_compatible` (given the triangle's row) accepts; of equally near
-  /// ones that with the lowest row. `positions` must be those of the last refit().
+  /// Nearest triangle, within max_distance (mm), that `is_compatible` (given the triangle's row) accepts; of equally
+  /// near ones that with the lowest row. `positions` must be those of the last refit().
   NearestTriangle nearest(const Eigen::Vector3d &point, double max_distance, const Points &positions,
                           const std::function<bool(int)> &is_compatible) const;
 

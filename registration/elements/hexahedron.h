@@ -7,8 +7,8 @@
 
 namespace pelvireg::registration
 {
-/// Eight nodes in VTK order, 2 x 2 x 2 Gauss points. The nine incompatible modes of Taylor, Beresford & Wilson (IJNME 10,
-/// 1976), condensed at rest, keep a band of one element across from locking in bending and at nu = 0.45; they cost
+/// Eight nodes in VTK order, 2 x 2 x 2 Gauss points. The nine incompatible modes of Taylor, Beresford & Wilson (IJNME
+/// 10, 1976), condensed at rest, keep a band of one element across from locking in bending and at nu = 0.45; they cost
 /// nothing in a step, because the stiffness of the element frame is constant.
 class Hexahedron
 {

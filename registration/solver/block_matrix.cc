@@ -44,7 +44,10 @@ BlockSlot SymmetricBlockMatrix::slot(int row, int column) const
   return {9 * block_starts_[column] + 3 * place, 3 * static_cast<int>(last - first)};
 }
 
-void SymmetricBlockMatrix::set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
+void SymmetricBlockMatrix::set_zero()
+{
+  std::fill(values_.begin(), values_.end(), 0.0);
+}
 
 void SymmetricBlockMatrix::add_to_diagonal(int block, double value)
 {

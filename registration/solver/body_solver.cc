@@ -6,7 +6,8 @@ namespace pelvireg::registration
 {
 namespace
 {
-template <class Element> typename Element::NodalVectors gather(const Points &positions, const std::array<int, Element::n_nodes> &nodes)
+template <class Element>
+typename Element::NodalVectors gather(const Points &positions, const std::array<int, Element::n_nodes> &nodes)
 {
   typename Element::NodalVectors result;
   for (int a = 0; a < Element::n_nodes; ++a)
@@ -58,7 +59,8 @@ void BodySolver::number_unknowns(const Body &body)
     return;
 
   std::vector<std::vector<int>> cliques;
-  const auto add_cliques = [&](const auto &group) {
+  const auto add_cliques = [&](const auto &group)
+  {
     for (const auto &nodes : group.nodes)
     {
       std::vector<int> &clique = cliques.emplace_back();

@@ -9,8 +9,8 @@
 
 namespace pelvireg::registration
 {
-/// Runs a task for every body on a fixed team of threads. A task writes only its own body's data, so the result does not
-/// depend on the number of threads or on which thread takes which body.
+/// Runs a task for every body on a fixed team of threads. A task writes only its own body's data, so the result does
+/// not depend on the number of threads or on which thread takes which body.
 class BodyThreads
 {
 public:

@@ -41,8 +41,8 @@ void Compliance::eliminate(const Supernode &node, const std::vector<int> &active
   for (int c = 0; c < node.n_columns; ++c)
     for (int k = 0; k < n_active; ++k)
       top_(k, c) = right_sides_(active[k], node.first_column + c);
-  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n_active, node.n_columns, 1.0, node.values,
-              node.n_rows, top_.data(), n_active);
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n_active, node.n_columns, 1.0,
+              node.values, node.n_rows, top_.data(), n_active);
 
   product_.resize(n_active, n_active);
   cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n_active, node.n_columns, 1.0, top_.data(), n_active, 0.0,

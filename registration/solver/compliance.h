@@ -41,7 +41,7 @@ private:
   void eliminate(const Supernode &node, const std::vector<int> &active);
 
   Eigen::MatrixXd result_;
-  Eigen::MatrixXd right_sides_; ///< one column an unknown, one row a constraint row: H, then (L^-1 H^T)^T
+  Eigen::MatrixXd right_sides_;              ///< one column an unknown, one row a constraint row: H, then (L^-1 H^T)^T
   std::vector<std::vector<int>> reached_by_; ///< rows that reach each supernode, ascending
   std::vector<int> last_row_seen_;
   Eigen::MatrixXd top_, below_, product_;

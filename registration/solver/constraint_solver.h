@@ -7,8 +7,8 @@
 
 namespace pelvireg::registration
 {
-/// Direct solution of bilateral rows. Redundant and antagonist rows make W singular; a compliance on every row, given or
-/// at least `least_relative_compliance` of W's mean diagonal, keeps W + C positive definite, so that such rows share
+/// Direct solution of bilateral rows. Redundant and antagonist rows make W singular; a compliance on every row, given
+/// or at least `least_relative_compliance` of W's mean diagonal, keeps W + C positive definite, so that such rows share
 /// the gap instead of blowing up.
 class ConstraintSolver
 {

@@ -153,7 +153,10 @@ Supernode SupernodalFactor::supernode(int s) const
   return node;
 }
 
-long SupernodalFactor::n_stored_values() const { return static_cast<long>(cholmod_->factor->xsize); }
+long SupernodalFactor::n_stored_values() const
+{
+  return static_cast<long>(cholmod_->factor->xsize);
+}
 
 void SupernodalFactor::solve(Eigen::Ref<Eigen::VectorXd> x)
 {
@@ -167,12 +170,13 @@ void SupernodalFactor::solve_lower(double *x)
   {
     const Supernode node = supernode(s);
     double *top = x + node.first_column;
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, node.n_columns, node.values, node.n_rows, top, 1);
+    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, node.n_columns, node.values, node.n_rows, top,
+                1);
     const int n_below = node.n_rows - node.n_columns;
     if (n_below == 0)
       continue;
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n_below, node.n_columns, 1.0, node.values + node.n_columns, node.n_rows, top,
-                1, 0.0, gathered_.data(), 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n_below, node.n_columns, 1.0, node.values + node.n_columns, node.n_rows,
+                top, 1, 0.0, gathered_.data(), 1);
     for (int r = 0; r < n_below; ++r)
       x[node.rows[node.n_columns + r]] -= gathered_[r];
   }

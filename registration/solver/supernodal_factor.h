@@ -12,8 +12,8 @@ namespace pelvireg::registration
 /// METIS, postordered). `cliques` as in SymmetricBlockMatrix.
 std::vector<int> fill_reducing_order(int n_blocks, const std::vector<std::vector<int>> &cliques);
 
-/// One supernode: consecutive columns of L with the same rows. `values` is column-major, `n_rows` x `n_columns`; its first
-/// n_columns rows are the dense lower triangle of the diagonal block.
+/// One supernode: consecutive columns of L with the same rows. `values` is column-major, `n_rows` x `n_columns`; its
+/// first n_columns rows are the dense lower triangle of the diagonal block.
 struct Supernode
 {
   int first_column = 0;

@@ -1,0 +1,373 @@
+#include "registration/registration.h"
+#include "tests/unit/registration/scene.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+namespace pelvireg::registration
+{
+namespace
+{
+/// Two hollow organs, one above the other, and a band of hexahedra from the upper one to a fixed end on its left.
+Model two_organs_and_a_band()
+{
+  Model model;
+  model.bodies.push_back(scene::hollow_ellipsoid({25, 30, 20}, 3, 3));
+  model.bodies.push_back(scene::hollow_ellipsoid({20, 20, 20}, 3, 2, {0, 0, -40}));
+  model.bodies.push_back(scene::block({30, 6, 6}, {6, 1, 1}, false, false, {25, -3, -3}));
+  model.bodies[0].name = "upper";
+  model.bodies[1].name = "lower";
+  model.bodies[2].name = "band";
+  model.bodies[2].youngs_modulus = 0.05;
+  Attachment attachment{"band on upper", 2, {}, 0, 0};
+  for (int node = 0; node < model.bodies[2].rest_positions.rows(); ++node)
+  {
+    if (model.bodies[2].rest_positions(node, 0) > 54)
+      model.bodies[2].fixed_nodes.push_back(node);
+    if (model.bodies[2].rest_positions(node, 0) < 26)
+      attachment.nodes_a.push_back(node);
+  }
+  model.attachments.push_back(attachment);
+  return model;
+}
+
+const Eigen::Vector3d tilted_normal = Eigen::Vector3d(1, 0.08, 0.05).normalized();
+
+/// The outlines of the rest state, every second segment, moved by `motion`.
+Observation moved_outlines(const Model &model, const Eigen::Vector3d &motion, const std::vector<int> &bodies = {0, 1})
+{
+  Observation observation;
+  observation.plane_origin = Eigen::Vector3d(-3, 0, 0);
+  observation.plane_normal = tilted_normal;
+  for (const int body : bodies)
+  {
+    observation.outlines.push_back(scene::outline(model.bodies[body], body, model.bodies[body].rest_positions,
+                                                  observation.plane_origin, observation.plane_normal));
+    observation.outlines.back().points.rowwise() += motion.transpose();
+  }
+  return observation;
+}
+
+/// 2 mm in the tilted plane.
+Eigen::Vector3d in_plane(double y, double z)
+{
+  const Eigen::Vector3d v(0, y, z);
+  return v - v.dot(tilted_normal) * tilted_normal;
+}
+
+std::string prepare_message(const Model &model, const Options &options = {})
+{
+  try
+  {
+    Registration().prepare(model, options);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    return error.what();
+  }
+  return "";
+}
+} // namespace
+
+TEST(Registration, SlidingRowsPushInThePlaneAndNotAcrossIt)
+{
+  const Model model = two_organs_and_a_band();
+  Registration registration;
+  registration.prepare(model, {});
+  const StepSummary summary = registration.update(moved_outlines(model, in_plane(1, 2)));
+  ASSERT_EQ(summary.status, StepStatus::ok);
+  EXPECT_GE(summary.accepted_control_points, 60);
+  EXPECT_GT(summary.in_plane_force, 1e-3);
+  EXPECT_LE(summary.out_of_plane_force, 1e-14 * summary.in_plane_force);
+}
+
+TEST(Registration, FollowsATranslatedOutlineInThePlane)
+{
+  Model model;
+  model.bodies.push_back(scene::hollow_ellipsoid({25, 30, 20}, 3, 3));
+  Registration registration;
+  registration.prepare(model, {});
+  const Eigen::Vector3d motion = in_plane(4, -3);
+  StepSummary summary;
+  for (int position = 1; position <= 5; ++position)
+    for (int repeat = 0; repeat < 3; ++repeat)
+      summary = registration.update(moved_outlines(model, position / 5.0 * motion, {0}));
+  EXPECT_LE(summary.mean_in_plane_residual, 0.05);
+  EXPECT_LE(summary.max_in_plane_residual, 0.3);
+  for (int rest = 0; rest < 60; ++rest) // the walls far from the plane follow as the elastic forces fade
+    summary = registration.update(moved_outlines(model, motion, {0}));
+  const Points motion_of_nodes = registration.positions(0) - model.bodies[0].rest_positions;
+  const Eigen::Vector3d mean = motion_of_nodes.colwise().mean().transpose();
+  EXPECT_LE((mean - motion).norm(), 0.05);
+  EXPECT_LE((motion_of_nodes.rowwise() - motion.transpose()).rowwise().norm().maxCoeff(), 0.5);
+}
+
+TEST(Registration, HoldsTheAttachmentsToAMillionthOfAMillimetre)
+{
+  const Model model = two_organs_and_a_band();
+  Registration registration;
+  registration.prepare(model, {});
+  for (int step = 1; step <= 9; ++step)
+  {
+    const StepSummary summary = registration.update(moved_outlines(model, (step + 2) / 3 * in_plane(1, 1)));
+    ASSERT_EQ(summary.status, StepStatus::ok);
+    EXPECT_LE(summary.attachment_residual, 1e-6);
+  }
+  const Points band_motion = registration.positions(2) - model.bodies[2].rest_positions;
+  EXPECT_GT(band_motion.rowwise().norm().maxCoeff(), 1);
+  for (const int node : model.bodies[2].fixed_nodes)
+    EXPECT_EQ(band_motion.row(node).norm(), 0);
+}
+
+TEST(Registration, LeavesTheBandsAtRestWithoutAttachments)
+{
+  const Model model = two_organs_and_a_band();
+  Options options;
+  options.use_attachments = false;
+  Registration registration;
+  registration.prepare(model, options);
+  for (int step = 0; step < 45; ++step)
+  {
+    const StepSummary summary = registration.update(moved_outlines(model, (step / 3 + 1) * in_plane(0.5, 0.5)));
+    ASSERT_EQ(summary.status, StepStatus::ok);
+    EXPECT_EQ(summary.attachment_residual, 0);
+    if (step % 3 == 2)
+    {
+      EXPECT_LE(summary.mean_in_plane_residual, 0.3);
+      EXPECT_GE(summary.accepted_control_points, 0.9 * summary.offered_control_points);
+    }
+  }
+  EXPECT_EQ(registration.positions(2), model.bodies[2].rest_positions);
+  EXPECT_GT((registration.positions(0) - model.bodies[0].rest_positions).rowwise().norm().minCoeff(), 5);
+}
+
+TEST(Registration, TellsFacingWallsOfASlabApart)
+{
+  // Top and bottom outline of a slab 4 mm thick have moved down by 3 mm: each is nearest to the other wall.
+  Model model;
+  model.bodies.push_back(scene::block({30, 40, 4}, {6, 8, 1}, true, true));
+  Observation observation;
+  observation.plane_origin = {14, 0, 0};
+  OutlineObservation outline;
+  outline.points.resize(14, 3);
+  outline.normals.resize(14, 3);
+  for (int k = 0; k < 7; ++k)
+  {
+    outline.points.row(2 * k) << 14, 5 + 5 * k, 4 - 3;
+    outline.points.row(2 * k + 1) << 14, 5 + 5 * k, 0 - 3;
+    outline.normals.row(2 * k) << 0, 0, 1;
+    outline.normals.row(2 * k + 1) << 0, 0, -1;
+  }
+  observation.outlines.push_back(outline);
+  Registration registration;
+  registration.prepare(model, {});
+  StepSummary summary;
+  for (int step = 0; step < 20; ++step)
+    summary = registration.update(observation);
+  EXPECT_EQ(summary.accepted_control_points, 14);
+  const Points motion = registration.positions(0) - model.bodies[0].rest_positions;
+  EXPECT_NEAR(motion.col(2).mean(), -3, 0.1);
+}
+
+TEST(Registration, SharesTheGapBetweenAntagonistControlPoints)
+{
+  Model model;
+  model.bodies.push_back(scene::block({40, 40, 4}, {4, 4, 1}, true, true));
+  Observation observation;
+  observation.plane_origin = {17, 0, 0};
+  OutlineObservation outline;
+  outline.points = (Points(3, 3) << 17, 16, 5, 17, 16, 7, 17, 16, 6).finished();
+  outline.normals = (Points(3, 3) << 0, 0, 1, 0, 0, 1, 0, 0, 1).finished();
+  observation.outlines.push_back(outline);
+  Registration registration;
+  registration.prepare(model, {});
+  for (int step = 0; step < 30; ++step)
+  {
+    const StepSummary summary = registration.update(observation);
+    ASSERT_EQ(summary.status, StepStatus::ok);
+    EXPECT_EQ(summary.accepted_control_points, 3);
+  }
+  const Points motion = registration.positions(0) - model.bodies[0].rest_positions;
+  EXPECT_NEAR(motion.col(2).mean(), 2, 0.2);
+  EXPECT_LE(motion.rowwise().norm().maxCoeff(), 3);
+}
+
+TEST(Registration, GivesTheSameBytesForOneAndTwoThreadsAndOnARerun)
+{
+  const Model model = two_organs_and_a_band();
+  std::vector<Points> first;
+  for (const int n_threads : {1, 2, 2, 1})
+  {
+    Options options;
+    options.n_threads = n_threads;
+    Registration registration;
+    registration.prepare(model, options);
+    for (int step = 1; step <= 5; ++step)
+      ASSERT_EQ(registration.update(moved_outlines(model, step * in_plane(0.5, 0.3))).status, StepStatus::ok);
+    for (int body = 0; body < 3; ++body)
+      if (n_threads == 1 && first.size() < 3)
+        first.push_back(registration.positions(body));
+      else
+        EXPECT_EQ(std::memcmp(first[body].data(), registration.positions(body).data(),
+                              sizeof(double) * static_cast<std::size_t>(first[body].size())),
+                  0);
+  }
+}
+
+TEST(Registration, KeepsTheLastStateWhenAnObservationIsUnusable)
+{
+  const Model model = two_organs_and_a_band();
+  Registration registration;
+  registration.prepare(model, {});
+  const Observation good = moved_outlines(model, in_plane(1, 0));
+  ASSERT_EQ(registration.update(good).status, StepStatus::ok);
+  const Points before = registration.positions(0);
+  const auto status_of = [&](const Observation &bad) {
+    const StepStatus status = registration.update(bad).status;
+    EXPECT_EQ(registration.positions(0), before);
+    return status;
+  };
+
+  EXPECT_EQ(status_of(Observation()), StepStatus::no_control_points);
+  Observation bad = good;
+  bad.outlines[0].points(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(status_of(bad), StepStatus::not_finite);
+  bad = good;
+  bad.plane_normal = {0, std::numeric_limits<double>::infinity(), 0};
+  EXPECT_EQ(status_of(bad), StepStatus::not_finite);
+  bad = good;
+  bad.outlines[1].body = 3;
+  EXPECT_EQ(status_of(bad), StepStatus::invalid_observation);
+  bad.outlines[1].body = -1;
+  EXPECT_EQ(status_of(bad), StepStatus::invalid_observation);
+  bad.outlines[1].body = 2; // the band has no outer surface
+  EXPECT_EQ(status_of(bad), StepStatus::invalid_observation);
+  bad = good;
+  bad.plane_normal *= 1.1;
+  EXPECT_EQ(status_of(bad), StepStatus::invalid_observation);
+  bad = good;
+  bad.outlines[0].normals.conservativeResize(4, 3);
+  EXPECT_EQ(status_of(bad), StepStatus::invalid_observation);
+  bad = good;
+  bad.plane_origin.x() += 200; // misses both organs
+  EXPECT_EQ(status_of(bad), StepStatus::no_control_points);
+  EXPECT_EQ(registration.update(good).status, StepStatus::ok);
+}
+
+TEST(Registration, CountsRefusedControlPoints)
+{
+  const Model model = two_organs_and_a_band();
+  Options options;
+  options.max_match_distance = 5;
+  Registration registration;
+  registration.prepare(model, options);
+  Observation observation = moved_outlines(model, Eigen::Vector3d::Zero());
+  const Eigen::Index n_upper = observation.outlines[0].points.rows();
+  observation.outlines[0].points.rowwise() += Eigen::RowVector3d(0, 0, 100);
+  const StepSummary summary = registration.update(observation);
+  EXPECT_EQ(summary.status, StepStatus::ok);
+  EXPECT_EQ(summary.offered_control_points - summary.accepted_control_points, n_upper);
+}
+
+TEST(Registration, StaysAtRestWhenTheOutlinesDo)
+{
+  const Model model = two_organs_and_a_band();
+  Registration registration;
+  registration.prepare(model, {});
+  for (int step = 0; step < 3; ++step)
+    registration.update(moved_outlines(model, Eigen::Vector3d::Zero()));
+  EXPECT_LE((registration.positions(0) - model.bodies[0].rest_positions).rowwise().norm().maxCoeff(), 1e-10);
+}
+
+TEST(Prepare, NamesTheFaultOfAModelInOneSentence)
+{
+  const Model good = two_organs_and_a_band();
+  EXPECT_EQ(prepare_message(good), "");
+
+  Model bad = good;
+  bad.bodies[0].tets.row(5).swap(bad.bodies[0].tets.row(5)); // no change: the copy is still good
+  EXPECT_EQ(prepare_message(bad), "");
+  std::swap(bad.bodies[0].tets(5, 0), bad.bodies[0].tets(5, 1));
+  EXPECT_NE(prepare_message(bad).find("body 'upper': tetrahedron 5 has volume -"), std::string::npos);
+
+  bad = good;
+  bad.bodies[2].hexes.row(2).reverseInPlace();
+  EXPECT_NE(prepare_message(bad).find("body 'band': hexahedron 2 has the Jacobian"), std::string::npos);
+
+  bad = good;
+  bad.bodies[1].outer_triangles.conservativeResize(bad.bodies[1].outer_triangles.rows() - 1, 3);
+  bad.bodies[1].is_wall.pop_back();
+  EXPECT_NE(prepare_message(bad).find("the outer surface is open at edge"), std::string::npos);
+
+  bad = good;
+  bad.bodies[1].outer_triangles.col(0).swap(bad.bodies[1].outer_triangles.col(1));
+  EXPECT_NE(prepare_message(bad).find("turn its triangles outward"), std::string::npos);
+
+  bad = good;
+  bad.bodies[0].rest_positions.conservativeResize(bad.bodies[0].rest_positions.rows() + 1, 3);
+  bad.bodies[0].rest_positions.bottomRows<1>().setZero();
+  EXPECT_NE(prepare_message(bad).find("belongs to no element"), std::string::npos);
+
+  bad = good;
+  bad.bodies[0].tets(0, 2) = 100000;
+  EXPECT_NE(prepare_message(bad).find("index 100000 is out of range"), std::string::npos);
+
+  bad = good;
+  bad.bodies[0].youngs_modulus = 0;
+  EXPECT_NE(prepare_message(bad).find("Young's modulus is 0 MPa"), std::string::npos);
+
+  bad = good;
+  bad.bodies[0].poisson_ratio = 0.5;
+  EXPECT_NE(prepare_message(bad).find("Poisson's ratio is 0.5"), std::string::npos);
+
+  bad = good;
+  bad.attachments[0].body_b = 7;
+  EXPECT_NE(prepare_message(bad).find("attachment 'band on upper': body 7"), std::string::npos);
+
+  bad = good;
+  bad.bodies[0].is_wall.assign(bad.bodies[0].is_wall.size(), 0);
+  EXPECT_NE(prepare_message(bad).find("has no wall triangle"), std::string::npos);
+
+  EXPECT_NE(prepare_message(Model()).find("no body"), std::string::npos);
+}
+
+TEST(Prepare, RefusesAnOrganInTwoPieces)
+{
+  Model model;
+  Body first = scene::hollow_ellipsoid({10, 10, 10}, 2, 1);
+  const Body second = scene::hollow_ellipsoid({10, 10, 10}, 2, 1, {40, 0, 0});
+  const auto append = [](auto &to, const auto &from, int shift) {
+    const Eigen::Index n = to.rows();
+    to.conservativeResize(n + from.rows(), to.cols());
+    to.bottomRows(from.rows()) = from.array() + shift;
+  };
+  const int n_nodes = static_cast<int>(first.rest_positions.rows());
+  append(first.rest_positions, second.rest_positions, 0);
+  append(first.tets, second.tets, n_nodes);
+  append(first.outer_triangles, second.outer_triangles, n_nodes);
+  first.is_wall.insert(first.is_wall.end(), second.is_wall.begin(), second.is_wall.end());
+  model.bodies.push_back(first);
+  EXPECT_NE(prepare_message(model).find("falls into 2 parts"), std::string::npos);
+}
+
+TEST(Prepare, RefusesOptionsOutOfRange)
+{
+  const Model model = two_organs_and_a_band();
+  Options options;
+  options.time_step = 0;
+  EXPECT_NE(prepare_message(model, options).find("time_step"), std::string::npos);
+  options = {};
+  options.n_threads = 0;
+  EXPECT_NE(prepare_message(model, options).find("n_threads"), std::string::npos);
+  options = {};
+  options.min_normal_agreement = 1 + 1e-12;
+  EXPECT_NE(prepare_message(model, options).find("min_normal_agreement"), std::string::npos);
+  options.min_normal_agreement = 1;
+  options.tolerance_mm = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(prepare_message(model, options).find("tolerance_mm"), std::string::npos);
+}
+} // namespace pelvireg::registration
