@@ -109,7 +109,8 @@ TEST(Sliding, RefusesAPointWhoseNearestCompatibleTriangleIsTooFar)
   const TriangleTree tree(body.outer_triangles, body.rest_positions);
   Options options;
   options.max_match_distance = 5;
-  const auto is_accepted = [&](double height) {
+  const auto is_accepted = [&](double height)
+  {
     return match_control_point(tree, body.rest_positions, {20, 20, height}, Eigen::Vector3d::UnitZ(),
                                Eigen::Vector3d::UnitX(), options)
         .is_accepted;

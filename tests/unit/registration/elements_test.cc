@@ -13,7 +13,10 @@ namespace pelvireg::registration
 {
 namespace
 {
-std::mt19937 generator() { return std::mt19937(7); }
+std::mt19937 generator()
+{
+  return std::mt19937(7);
+}
 
 Eigen::Matrix3d random_matrix(std::mt19937 &random)
 {
@@ -41,7 +44,7 @@ template <> Hexahedron::NodalVectors rest_shape<Hexahedron>()
 {
   Hexahedron::NodalVectors rest;
   rest << 0, 4, 4.4, 0.2, 0.1, 4.2, 4.1, -0.3, //
-      0, 0.3, 3, 3.3, 0.2, -0.1, 3.2, 2.9,      //
+      0, 0.3, 3, 3.3, 0.2, -0.1, 3.2, 2.9,     //
       0, 0.1, -0.2, 0.2, 2, 2.2, 2.1, 1.8;
   return rest;
 }
@@ -139,7 +142,8 @@ TYPED_TEST(ElementTest, BalancesForceAndMoment)
   EXPECT_LE(force.rowwise().sum().norm(), 1e-12 * force.norm() * TypeParam::n_nodes);
   if constexpr (std::is_same_v<TypeParam, Tetrahedron>)
   {
-    // Q(F) of a constant gradient makes the stress symmetric: no moment. (A hexahedron's rotation is its centre's only.)
+    // Q(F) of a constant gradient makes the stress symmetric: no moment. (A hexahedron's rotation is its centre's
+    // only.)
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
     for (int a = 0; a < TypeParam::n_nodes; ++a)
       moment += bent.col(a).cross(force.col(a));

@@ -16,7 +16,7 @@ using Surface = std::pair<std::vector<Eigen::Vector3d>, std::vector<std::array<i
 Surface icosphere(int n_subdivisions)
 {
   const double g = (1 + std::sqrt(5.0)) / 2;
-  std::vector<Eigen::Vector3d> points{{-1, g, 0}, {1, g, 0},   {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+  std::vector<Eigen::Vector3d> points{{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                                       {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
   std::vector<std::array<int, 3>> faces{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
                                         {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
@@ -25,7 +25,8 @@ Surface icosphere(int n_subdivisions)
   for (int level = 0; level < n_subdivisions; ++level)
   {
     std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b) {
+    const auto middle = [&](int a, int b)
+    {
       const auto [place, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<int>(points.size()));
       if (is_new)
         points.push_back(0.5 * (points[a] + points[b]));

@@ -7,8 +7,8 @@
 
 namespace pelvireg::registration::scene
 {
-/// Closed ellipsoid of the given outer half-axes (mm), hollow: one layer of tetrahedra, `wall` mm thick, extruded inward
-/// from an icosphere subdivided `n_subdivisions` times.
+/// Closed ellipsoid of the given outer half-axes (mm), hollow: one layer of tetrahedra, `wall` mm thick, extruded
+/// inward from an icosphere subdivided `n_subdivisions` times.
 Body hollow_ellipsoid(const Eigen::Vector3d &half_axes, double wall, int n_subdivisions,
                       const Eigen::Vector3d &centre = Eigen::Vector3d::Zero());
 
@@ -17,8 +17,8 @@ Body hollow_ellipsoid(const Eigen::Vector3d &half_axes, double wall, int n_subdi
 Body block(const Eigen::Vector3d &size, const Eigen::Vector3i &n, bool tetrahedral, bool with_surface = false,
            const Eigen::Vector3d &origin = Eigen::Vector3d::Zero());
 
-/// Control points where the plane cuts the outer triangles of a body at `positions`: every `stride`-th segment's middle,
-/// with the triangle's normal projected into the plane.
+/// Control points where the plane cuts the outer triangles of a body at `positions`: every `stride`-th segment's
+/// middle, with the triangle's normal projected into the plane.
 OutlineObservation outline(const Body &body, int index, const Points &positions, const Eigen::Vector3d &plane_origin,
                            const Eigen::Vector3d &plane_normal, int stride = 1);
 } // namespace pelvireg::registration::scene
