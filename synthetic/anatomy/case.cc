@@ -4,6 +4,7 @@
 #include "synthetic/anatomy/parameters.h"
 #include "synthetic/anatomy/reference_parts.h"
 #include "synthetic/anatomy/registration_bodies.h"
+#include "synthetic/anatomy/separation.h"
 #include "synthetic/dataset/error.h"
 
 #include <fmt/format.h>
@@ -61,6 +62,7 @@ std::string case_text(const std::string &name_or_path)
 dataset::Anatomy build_anatomy(const std::string &text, const std::string &case_name)
 {
   const Parameters p = read_parameters(text, case_name);
+  check_separation(p);
   dataset::Anatomy anatomy;
   anatomy.case_name = p.name;
   anatomy.dyn_plane = dyn_plane(p);

@@ -75,13 +75,13 @@ RegistrationBody full_body(const std::vector<Chart> &charts, double size)
   return body;
 }
 
-/// The mesh size whose node count is nearest to the target. Counts jump, so the sizes are walked through, not bisected.
-RegistrationBody sized_body(const std::string &name, int target, const std::function<int(double)> &n_nodes,
-                            const std::function<RegistrationBody(double)> &make)
+/// The mesh size whose node count is nearest to the target: halving first, then, because counts jump, a walk through
+/// the sizes nearby when halving ended on the wrong side of a jump.
+double size_for_count(int target, const std::function<int(double)> &n_nodes)
 {
   double best_size = 0;
   int best_count = 0;
-  for (double size = 24; size > 1.5; size *= 0.985)
+  const auto try_size = [&](double size)
   {
     const int n = n_nodes(size);
     if (best_size == 0 || std::abs(n - target) < std::abs(best_count - target))
@@ -89,9 +89,25 @@ RegistrationBody sized_body(const std::string &name, int target, const std::func
       best_size = size;
       best_count = n;
     }
-    if (n > 2 * target)
-      break;
+    return n;
+  };
+  const auto is_close = [&](double tolerance) { return std::abs(best_count - target) <= tolerance * target; };
+  double fine = 1.5, coarse = 30;
+  for (int i = 0; i < 10 && !is_close(count_tolerance / 5); ++i)
+  {
+    const double middle = std::sqrt(fine * coarse);
+    (try_size(middle) > target ? fine : coarse) = middle;
   }
+  const double centre = best_size;
+  for (int i = -20; i <= 20 && !is_close(count_tolerance); ++i)
+    try_size(centre * std::pow(0.985, i));
+  return best_size;
+}
+
+RegistrationBody sized_body(const std::string &name, int target, const std::function<int(double)> &n_nodes,
+                            const std::function<RegistrationBody(double)> &make)
+{
+  const double best_size = size_for_count(target, n_nodes);
   RegistrationBody body = make(best_size);
   if (!(std::abs(static_cast<double>(body.points.rows()) - target) <= count_tolerance * target))
     throw InputError(
