@@ -1,1 +1,54 @@
 #include "reference_fe/reference.h"
+
+#include "reference_fe/load_stepper.h"
+#include "reference_fe/model_checks.h"
+#include "reference_fe/pelvis_model.h"
+#include "reference_fe/truth_recorder.h"
+#include "synthetic/dataset/error.h"
+
+#include <fmt/format.h>
+
+namespace pelvireg::reference_fe
+{
+namespace
+{
+std::string describe(int increment, int n_increments, const dataset::IncrementRecord &record)
+{
+  return fmt::format("increment {} of {}: vagina {:.2f} mm, pressure {:.2f} kPa, {} iterations, {} cuts, penetration "
+                     "{:.3f} mm",
+                     increment, n_increments, record.mean_vaginal_displacement, 1e3 * record.pressure,
+                     record.newton_iterations, record.cuts, record.max_penetration);
+}
+} // namespace
+
+dataset::Truth solve_reference(const dataset::Anatomy &anatomy, const ReferenceOptions &options)
+{
+  check_model(anatomy.reference);
+  PelvisModel model = build_pelvis_model(anatomy, options.n_threads);
+  TruthRecorder recorder(model, anatomy.case_name);
+  LoadStepper stepper(model, {});
+  const auto report = [&](double done, const std::string &line)
+  {
+    if (options.progress)
+      options.progress(done, line);
+  };
+  report(0, fmt::format("{} unknowns", model.system.n_free()));
+
+  stepper.start();
+  const int n = anatomy.reference.n_increments;
+  for (int increment = 1; increment <= n; ++increment)
+  {
+    try
+    {
+      const StepEffort effort = stepper.advance_to(anatomy.reference.target_displacement * increment / n);
+      recorder.record(stepper.solution(), effort);
+    }
+    catch (const ComputationError &error)
+    {
+      throw ComputationError(fmt::format("increment {} of {}: {}", increment, n, error.what()));
+    }
+    report(static_cast<double>(increment) / n, describe(increment, n, recorder.truth().increments.back()));
+  }
+  return recorder.truth();
+}
+} // namespace pelvireg::reference_fe

@@ -1,0 +1,45 @@
+#include "reference_fe/constraints/follower_pressure.h"
+
+#include <utility>
+
+namespace pelvireg::reference_fe
+{
+FollowerPressure::FollowerPressure(std::vector<SurfaceFace> faces, int pressure_unknown)
+    : faces_(std::move(faces)), pressure_(pressure_unknown)
+{
+}
+
+void FollowerPressure::unknowns(int item, std::vector<int> &indices) const
+{
+  indices.clear();
+  append_unknowns(faces_[item].nodes, indices);
+  indices.push_back(pressure_);
+}
+
+void FollowerPressure::evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &local) const
+{
+  unknowns(item, local.unknowns);
+  const std::vector<SurfaceNode> &nodes = faces_[item].nodes;
+  const int n = static_cast<int>(nodes.size());
+  const Eigen::Matrix3Xd x = positions(nodes, solution);
+  const double p = solution[pressure_];
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * n + 1);
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(3 * n + 1, 3 * n + 1);
+  for (const FacePoint &q : face_quadrature(n))
+  {
+    const Eigen::Vector3d g1 = x * q.d_xi, g2 = x * q.d_eta;
+    const Eigen::Vector3d normal = q.weight * g1.cross(g2);
+    const Eigen::Matrix3d s1 = q.weight * p * skew(g1), s2 = q.weight * p * skew(g2);
+    for (int j = 0; j < n; ++j)
+    {
+      const Eigen::Matrix3d d_normal = q.d_eta[j] * s1 - q.d_xi[j] * s2;
+      for (int i = 0; i < n; ++i)
+        stiffness.block<3, 3>(3 * i, 3 * j) += q.value[i] * d_normal;
+      stiffness.block<3, 1>(3 * j, 3 * n) += q.value[j] * normal;
+    }
+  }
+  force.head(3 * n) = p * stiffness.col(3 * n).head(3 * n);
+  to_unknowns(nodes, solution, force, stiffness, 1, local);
+  local.energy = 0;
+}
+} // namespace pelvireg::reference_fe

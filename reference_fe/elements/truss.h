@@ -1,0 +1,49 @@
+// Bars: ligaments and fasciae.
+#pragma once
+
+#include "reference_fe/elements/surface_node.h"
+#include "reference_fe/term.h"
+#include "synthetic/dataset/anatomy.h"
+
+#include <string>
+#include <vector>
+
+namespace pelvireg::reference_fe
+{
+/// One straight bar between two nodes, or between a node and a fixed point.
+struct Bar
+{
+  std::string group;                                   ///< "cardinal_left", …
+  std::vector<SurfaceNode> nodes;                      ///< one or two, side 0
+  Eigen::Vector3d fixed_end = Eigen::Vector3d::Zero(); ///< mm; used when there is one node
+  double area = 0;                                     ///< rest section, mm^2
+  dataset::YeohMaterial material;                      ///< kappa is not used: the bar keeps its volume
+};
+
+/// Uniaxial response of a bar at stretch lambda: energy per volume and its first two derivatives, MPa.
+struct UniaxialResponse
+{
+  double energy = 0, stress = 0, modulus = 0;
+};
+
+/// Tension: incompressible Yeoh, I1 = lambda^2 + 2 / lambda, nominal stress 2 (lambda - lambda^-2) sum i C_i0 (I1 -
+/// 3)^(i-1). Compression: a bar is a strand of fibres that buckles. Its stress follows the same slope E = 6 C10 at
+/// lambda = 1 and levels off at 2 % strain, E (1 - r) d tanh((lambda - 1)/d) + E r (lambda - 1) with d = 0.02, r =
+/// 0.001: once continuously differentiable, and never a zero stiffness.
+UniaxialResponse uniaxial_response(const dataset::YeohMaterial &material, double lambda);
+
+/// Hyperelastic bars at finite strain: energy A L W(l / L).
+class Trusses : public Term
+{
+public:
+  explicit Trusses(std::vector<Bar> bars);
+
+  std::string name() const override { return "trusses"; }
+  int n_items() const override { return static_cast<int>(bars_.size()); }
+  void unknowns(int item, std::vector<int> &indices) const override;
+  void evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &local) const override;
+
+private:
+  std::vector<Bar> bars_;
+};
+} // namespace pelvireg::reference_fe

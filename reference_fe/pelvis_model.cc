@@ -1,0 +1,228 @@
+#include "reference_fe/pelvis_model.h"
+
+#include "reference_fe/constraints/follower_pressure.h"
+#include "reference_fe/elements/quadratic_tetrahedron.h"
+#include "reference_fe/elements/shell_term.h"
+#include "reference_fe/materials/yeoh.h"
+#include "synthetic/dataset/error.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace pelvireg::reference_fe
+{
+namespace
+{
+using dataset::ReferenceModel;
+using dataset::SurfaceRegion;
+
+/// Where each part's unknowns begin, and its nodes and faces as surface nodes and faces.
+class Parts
+{
+public:
+  Parts(const ReferenceModel &reference, EquilibriumSystem &system)
+  {
+    for (const dataset::ReferenceShell &shell : reference.shells)
+    {
+      const int first = add_shell_unknowns(system, shell_body(shell));
+      shells_[shell.name] = {&shell, first};
+      for (const std::int32_t node : shell.fixed_nodes)
+        for (int k = 0; k < 3; ++k)
+          system.fix(first + 7 * node + k);
+    }
+    for (const dataset::ReferenceSolid &solid : reference.solids)
+    {
+      const int first = system.add_unknowns(3 * static_cast<int>(solid.points.rows()), {solid.name});
+      solids_[solid.name] = {&solid, first};
+      for (const std::int32_t node : solid.fixed_nodes)
+        for (int k = 0; k < 3; ++k)
+          system.fix(first + 3 * node + k);
+    }
+  }
+
+  int first_unknown(const std::string &part) const
+  {
+    const auto shell = shells_.find(part);
+    return shell != shells_.end() ? shell->second.second : solids_.at(part).second;
+  }
+
+  /// Mid-surface of a shell's node, or node of a solid.
+  SurfaceNode node(const std::string &part, int node) const
+  {
+    if (const auto shell = shells_.find(part); shell != shells_.end())
+      return shell_node(*shell->second.first, shell->second.second, node, 0);
+    const auto &[solid, first] = solids_.at(part);
+    return solid_node(*solid, first, node);
+  }
+
+  /// Outer faces of one region.
+  std::vector<SurfaceFace> outer_faces(const std::string &part, SurfaceRegion region) const
+  {
+    std::vector<SurfaceFace> faces;
+    if (const auto found = shells_.find(part); found != shells_.end())
+    {
+      const auto &[shell, first] = found->second;
+      for (Eigen::Index c = 0; c < shell->cells.rows(); ++c)
+        if (shell->region[c] == static_cast<std::int32_t>(region))
+          faces.push_back(shell_face(*shell, first, c, +1));
+      return faces;
+    }
+    const auto &[solid, first] = solids_.at(part);
+    for (Eigen::Index f = 0; f < solid->faces.rows(); ++f)
+      if (solid->region[f] == static_cast<std::int32_t>(region))
+        faces.push_back(solid_face(*solid, first, f));
+    return faces;
+  }
+
+private:
+  std::map<std::string, std::pair<const dataset::ReferenceShell *, int>> shells_;
+  std::map<std::string, std::pair<const dataset::ReferenceSolid *, int>> solids_;
+};
+
+std::shared_ptr<const HyperelasticLaw> yeoh(const dataset::YeohMaterial &m)
+{
+  return std::make_shared<Yeoh>(m.c10, m.c20, m.c30, m.kappa);
+}
+
+std::vector<std::string> part_names(const ReferenceModel &reference)
+{
+  std::vector<std::string> names;
+  for (const dataset::ReferenceShell &shell : reference.shells)
+    names.push_back(shell.name);
+  for (const dataset::ReferenceSolid &solid : reference.solids)
+    names.push_back(solid.name);
+  return names;
+}
+
+void add_elements(const ReferenceModel &reference, const Parts &parts, PelvisModel &model)
+{
+  for (const dataset::ReferenceShell &shell : reference.shells)
+    model.system.add_term(std::make_shared<ShellTerm>(
+        shell_body(shell), yeoh(reference.materials.at(shell.material)), parts.first_unknown(shell.name)));
+  for (const dataset::ReferenceSolid &solid : reference.solids)
+    model.system.add_term(std::make_shared<QuadraticTetrahedra>(solid, reference.materials.at(solid.material),
+                                                                parts.first_unknown(solid.name)));
+  for (const dataset::ReferenceTruss &truss : reference.trusses)
+  {
+    Bar bar;
+    bar.group = truss.group;
+    bar.nodes.push_back(parts.node(truss.part_a, truss.node_a));
+    if (truss.part_b.empty())
+      bar.fixed_end = truss.fixed_point;
+    else
+      bar.nodes.push_back(parts.node(truss.part_b, truss.node_b));
+    bar.area = truss.area;
+    bar.material = reference.materials.at(truss.material);
+    model.bars.push_back(bar);
+  }
+  model.system.add_term(std::make_shared<Trusses>(model.bars));
+  model.n_strain_terms = static_cast<int>(model.system.terms().size());
+}
+
+void add_cavities(const ReferenceModel &reference, const Parts &parts, PelvisModel &model)
+{
+  for (const dataset::ReferenceShell &shell : reference.shells)
+  {
+    if (!shell.has_cavity)
+      continue;
+    const int first = parts.first_unknown(shell.name);
+    std::vector<SurfaceFace> faces;
+    for (Eigen::Index c = 0; c < shell.cells.rows(); ++c)
+      faces.push_back(shell_face(shell, first, c, -1));
+    for (const dataset::Integers &rim : shell.rims)
+    {
+      std::vector<SurfaceNode> loop;
+      for (const int node : oriented_rim(shell, rim))
+        loop.push_back(shell_node(shell, first, node, -1));
+      const std::vector<SurfaceFace> caps = rim_caps(loop);
+      faces.insert(faces.end(), caps.begin(), caps.end());
+    }
+    // A row of the volume is compared with 1 N as 1e-6 of 1000 mm^3: 1e-3 mm^3 at the tolerance of 1e-6 N.
+    const int pressure = model.system.add_unknowns(1, {"pressure of " + shell.name, 1e3});
+    model.cavities.push_back(std::make_shared<Cavity>(shell.name, std::move(faces), pressure));
+    model.system.add_term(model.cavities.back());
+  }
+}
+
+void add_ties(const ReferenceModel &reference, const Parts &parts, PelvisModel &model)
+{
+  for (const auto &[a, b] : reference.ties)
+  {
+    const auto faces_a = parts.outer_faces(a, SurfaceRegion::cervix_patch);
+    const auto faces_b = parts.outer_faces(b, SurfaceRegion::cervix_patch);
+    for (const auto &[part, faces] : {std::pair{&a, &faces_a}, std::pair{&b, &faces_b}})
+      if (faces->empty())
+        throw InputError(
+            fmt::format("tie {}–{}: part '{}' has no cell of region cervix_patch; mark the shared patch on "
+                        "both parts",
+                        a, b, *part));
+    model.ties.push_back(std::make_shared<Tie>("tie " + a + "–" + b, faces_a, faces_b));
+    model.system.add_term(model.ties.back());
+  }
+}
+
+void add_contact(const ReferenceModel &reference, PelvisModel &model)
+{
+  if (reference.contact_pairs.empty())
+    return;
+  std::vector<ContactSurface> surfaces;
+  std::map<std::string, int> index;
+  for (const OuterSurface &outer : model.surfaces)
+  {
+    ContactSurface surface{outer.part, outer.vertices, {}};
+    for (Eigen::Index t = 0; t < outer.triangles.rows(); ++t)
+      if (outer.region[t] == static_cast<std::int32_t>(SurfaceRegion::wall) ||
+          outer.region[t] == static_cast<std::int32_t>(SurfaceRegion::peritoneal))
+        surface.facets.push_back({outer.triangles(t, 0), outer.triangles(t, 1), outer.triangles(t, 2)});
+    index[outer.part] = static_cast<int>(surfaces.size());
+    surfaces.push_back(std::move(surface));
+  }
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto &[a, b] : reference.contact_pairs)
+    pairs.emplace_back(index.at(a), index.at(b));
+  model.contact = std::make_shared<PenaltyContact>(std::move(surfaces), pairs, ContactOptions{});
+  model.system.add_term(model.contact);
+}
+
+void add_load(const dataset::Anatomy &anatomy, const Parts &parts, PelvisModel &model)
+{
+  // A length of 1 mm is compared as 1 N.
+  model.pressure_unknown = model.system.add_unknowns(1, {"abdominal pressure"});
+  std::vector<SurfaceFace> loaded;
+  for (const std::string &name : part_names(anatomy.reference))
+    for (SurfaceFace &face : parts.outer_faces(name, SurfaceRegion::peritoneal))
+      loaded.push_back(std::move(face));
+  if (loaded.empty())
+    throw InputError("no part has a cell of region peritoneal, so nothing carries the abdominal pressure; mark the "
+                     "peritoneal surfaces in the anatomy");
+  model.system.add_term(std::make_shared<FollowerPressure>(std::move(loaded), model.pressure_unknown));
+  for (const OuterSurface &surface : model.surfaces)
+    if (surface.part == "vagina")
+      model.probe = std::make_shared<DisplacementProbe>(
+          probe_points(surface.vertices, surface.triangles, surface.region, anatomy.dyn_plane),
+          anatomy.dyn_plane.normal, model.pressure_unknown);
+  if (!model.probe)
+    throw InputError("no part is called 'vagina', whose displacement controls the load; name one so");
+  model.system.add_term(model.probe);
+}
+} // namespace
+
+PelvisModel build_pelvis_model(const dataset::Anatomy &anatomy, int n_threads)
+{
+  PelvisModel model(n_threads);
+  const ReferenceModel &reference = anatomy.reference;
+  const Parts parts(reference, model.system);
+  for (const dataset::ReferenceShell &shell : reference.shells)
+    model.surfaces.push_back(outer_surface(shell, parts.first_unknown(shell.name)));
+  for (const dataset::ReferenceSolid &solid : reference.solids)
+    model.surfaces.push_back(outer_surface(solid, parts.first_unknown(solid.name)));
+
+  add_elements(reference, parts, model);
+  add_cavities(reference, parts, model);
+  add_ties(reference, parts, model);
+  add_contact(reference, model);
+  add_load(anatomy, parts, model);
+  return model;
+}
+} // namespace pelvireg::reference_fe
