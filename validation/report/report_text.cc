@@ -39,6 +39,7 @@ dt{font-weight:600;margin-top:.6em}
 dd{margin:0 0 0 1.2em}
 .provenance td{overflow-wrap:anywhere;text-align:left;min-width:12em}
 @media(max-width:700px){
+th,td{padding:.3em .4em}
 .claims thead{display:none}
 .claims tr{display:block;border-bottom:1px solid #999;padding:.6em 0}
 .claims td{display:block;border:0;padding:.1em 0;min-width:0}

@@ -16,6 +16,22 @@ namespace
 using dataset::organ_names;
 
 constexpr int column = 15;
+constexpr std::size_t width = 110;
+
+/// Break a line at spaces so that it stays within the width; later lines are indented. Ends with a newline.
+std::string wrap(const std::string &line, std::size_t indent)
+{
+  std::string text, rest = line;
+  while (rest.size() > width)
+  {
+    const std::size_t space = rest.rfind(' ', width);
+    if (space == std::string::npos || space <= indent)
+      break;
+    text += rest.substr(0, space) + "\n";
+    rest = std::string(indent, ' ') + rest.substr(space + 1);
+  }
+  return text + rest + "\n";
+}
 
 double largest(const std::vector<Aggregate> &by_step)
 {
@@ -109,7 +125,7 @@ std::string error_table(const Evaluation &evaluation, const std::vector<StepTimi
                                  evaluation.case_name, evaluation.n_steps());
   text += surface_errors(evaluation) + "\n" + motion(evaluation) + "\n" + quality(evaluation, timings) + "\n";
   for (const ClaimVerdict &claim : assess_claims(evaluation, timings))
-    text += fmt::format("{:<14}{}: paper {}, ours {}\n", claim.verdict, claim.id, claim.paper, claim.ours);
+    text += wrap(fmt::format("{:<14}{}: paper {}, ours {}", claim.verdict, claim.id, claim.paper, claim.ours), 14);
   return text;
 }
 } // namespace pelvireg::runner

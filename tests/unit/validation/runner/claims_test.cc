@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
+#include <utility>
 
 namespace pelvireg::runner
 {
@@ -44,7 +46,7 @@ TEST(Claims, OfAGoodRegistrationInSmallMotionAreConfirmed)
 
 TEST(Claims, OfAUselessRegistrationAreRefuted)
 {
-  auto verdict = verdicts({0, 12, -16}, 0.0, 0.1);
+  auto verdict = verdicts({0, 5.2, -6.6}, 0.0, 0.1);
   EXPECT_EQ(verdict["better_than_unregistered"], "refuted");
   EXPECT_EQ(verdict["below_4_mm"], "refuted");
   EXPECT_EQ(verdict["vagina_ratio_small_motion"], "refuted");
@@ -59,6 +61,35 @@ TEST(Claims, OfLargeMotionAreAssessedAbove25Mm)
   auto large = verdicts({0, 0, -25.001}, 0.9, 0.5);
   EXPECT_EQ(large["ratio_large_motion"], "confirmed");
   EXPECT_EQ(large["below_4_mm"], "not assessed");
+}
+
+TEST(Claims, OfSmallMotionAreAssessedWithinHalfAMillimetreOfThePapers)
+{
+  for (const auto &[motion, assessed] :
+       {std::pair{7.7 + 1e-9, true}, {7.7 - 1e-9, false}, {8.7 - 1e-9, true}, {8.7 + 1e-9, false}})
+  {
+    auto verdict = verdicts({0, 0, -motion}, 0.9, 0.5);
+    EXPECT_EQ(verdict["below_4_mm"] != "not assessed", assessed) << motion;
+    EXPECT_EQ(verdict["vagina_ratio_small_motion"] != "not assessed", assessed) << motion;
+  }
+}
+
+TEST(Claims, ARatioDoesNotComeFromARunThatDidNotFollowTheImage)
+{
+  const Eigen::Vector3d translation(0, 5, -6);
+  const std::vector<dataset::Estimate> sound = {test::sphere_estimate("full", translation, 0.9),
+                                                test::sphere_estimate("no_boundary_conditions", translation, 0.5)};
+  const auto ratio_verdict = [&](const std::function<void(dataset::StepRecord &)> &change)
+  {
+    std::vector<dataset::Estimate> estimates = sound;
+    change(estimates[1].samples[0].steps[3]); // the last step of a position
+    return assess_claims(evaluate(test::sphere_anatomy(), test::sphere_truth(translation), estimates), {})[2].verdict;
+  };
+  EXPECT_EQ(ratio_verdict([](dataset::StepRecord &) {}), "confirmed");
+  EXPECT_EQ(ratio_verdict([](dataset::StepRecord &step) { step.accepted_control_points = 17; }), "not assessed");
+  EXPECT_EQ(ratio_verdict([](dataset::StepRecord &step) { step.in_plane_residual = 0.3 + 1e-12; }), "not assessed");
+  EXPECT_EQ(ratio_verdict([](dataset::StepRecord &step) { step.in_plane_residual = 0.3; }), "confirmed");
+  EXPECT_EQ(ratio_verdict([](dataset::StepRecord &step) { step.status = "not_finite"; }), "not assessed");
 }
 
 TEST(Claims, OfAConditionThatWasNotRunAreNotAssessed)
