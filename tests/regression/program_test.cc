@@ -1,0 +1,181 @@
+// The pelvireg program as a person or CI calls it: files, exit status, words.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <sys/wait.h>
+
+namespace pelvireg
+{
+namespace
+{
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string content_of(const fs::path &file)
+{
+  std::ostringstream out;
+  out << std::ifstream(file, std::ios::binary).rdbuf();
+  return out.str();
+}
+
+struct Outcome
+{
+  int status = -1;
+  std::string out, err;
+};
+
+class Program : public ::testing::Test
+{
+protected:
+  Program()
+  {
+    std::string name = (fs::temp_directory_path() / "pelvireg-test-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~Program() override { fs::remove_all(folder_); }
+
+  Outcome call(const std::string &arguments) const
+  {
+    const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
+    const std::string command = "cd '" + folder_.string() + "' && '" PELVIREG_PROGRAM "' " + arguments + " >'" +
+                                out.string() + "' 2>'" + err.string() + "' </dev/null";
+    const int status = std::system(command.c_str());
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(out), content_of(err)};
+    fs::remove(out);
+    fs::remove(err);
+    return outcome;
+  }
+
+  /// Exit status 2, one sentence on standard error that holds `part`, no file left.
+  void expect_refused(const std::string &arguments, const std::string &part) const
+  {
+    const Outcome outcome = call(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(part)) << arguments;
+  }
+
+  std::vector<std::string> files() const
+  {
+    std::vector<std::string> names;
+    for (const auto &entry : fs::recursive_directory_iterator(folder_))
+      names.push_back(entry.path().lexically_relative(folder_).string());
+    return names;
+  }
+
+  fs::path folder_;
+};
+
+/// Content of every HDF5 and CSV file by name.
+std::map<std::string, std::string> results_in(const fs::path &folder)
+{
+  std::map<std::string, std::string> results;
+  for (const auto &entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".h5" || entry.path().extension() == ".csv")
+      results[entry.path().filename().string()] = content_of(entry.path());
+  return results;
+}
+
+/// A line of the case file, what is wrong instead of it, and a word that the sentence must hold.
+struct BadValue
+{
+  std::string pattern, replacement, part;
+};
+const std::vector<BadValue> bad_values = {
+    {"\nvagina = 0.66", "\nvagina = 0", "youngs_modulus.vagina"},
+    {"\nwall = ", "\nwall = -", "wall"},
+    {"\ntilt = ", "\ntilted = ", "tilted"},
+    {"\ntarget_displacement = 8.2", "\ntarget_displacement = nan", "target_displacement"},
+    {"\nn_increments = 15", "\nn_increments = \"many\"", "n_increments"}};
+
+std::string replaced(std::string text, const std::string &pattern, const std::string &replacement)
+{
+  const std::size_t place = text.find(pattern);
+  EXPECT_NE(place, std::string::npos) << "the case file has no '" << pattern << "'";
+  return place == std::string::npos ? text : text.replace(place, pattern.size(), replacement);
+}
+} // namespace
+
+TEST_F(Program, GivesTheSameBytesForOneAndTwoThreadsAndSkipsWhatIsDone)
+{
+  const Outcome one = call("run quick --out one --jobs 1");
+  ASSERT_EQ(one.status, 0) << one.err;
+  EXPECT_THAT(one.out, HasSubstr("vagina"));
+  EXPECT_THAT(one.out, HasSubstr("report: one/report.html"));
+  const Outcome two = call("run quick --out two --jobs 2");
+  ASSERT_EQ(two.status, 0) << two.err;
+
+  const auto results_one = results_in(folder_ / "one"), results_two = results_in(folder_ / "two");
+  for (const char *name : {"anatomy.h5", "truth.h5", "observations.h5", "estimate-full.h5",
+                           "estimate-no_boundary_conditions.h5", "errors_by_step.csv", "errors_by_slice.csv"})
+  {
+    ASSERT_TRUE(results_one.contains(name) && results_two.contains(name)) << name;
+    EXPECT_EQ(results_one.at(name), results_two.at(name)) << name; // not EXPECT_THAT: bytes would be printed
+  }
+
+  const Outcome again = call("run quick --out one --jobs 2");
+  EXPECT_EQ(again.status, 0);
+  for (const char *stage : {"anatomy", "reference", "observe", "register full", "evaluate", "report"})
+    EXPECT_THAT(again.out, HasSubstr(std::string(stage) + ": up to date"));
+  EXPECT_EQ(results_in(folder_ / "one"), results_one);
+}
+
+TEST_F(Program, RefusesABadCaseWithOneSentenceAndLeavesNothing)
+{
+  ASSERT_EQ(call("anatomy quick --out good").status, 0);
+  const std::string good = content_of(folder_ / "good" / "case.toml");
+  fs::remove_all(folder_ / "good");
+  const auto expect_case_refused = [&](const std::string &text, const std::string &part)
+  {
+    std::ofstream(folder_ / "bad.toml") << text;
+    expect_refused("run bad.toml --out result", part);
+    fs::remove(folder_ / "bad.toml");
+    EXPECT_THAT(files(), IsEmpty());
+  };
+  expect_case_refused(good + "\n[no_such_section]\nkey = 1\n", "no_such_section");
+  expect_case_refused(good + "\nnot toml at all", "line");
+  for (const auto &[pattern, replacement, part] : bad_values)
+    expect_case_refused(replaced(good, pattern, replacement), part);
+}
+
+TEST_F(Program, RefusesWhatItDoesNotKnow)
+{
+  expect_refused("run no_such_case", "no_such_case");
+  expect_refused("run", "CASE");
+  expect_refused("", "subcommand");
+  expect_refused("walk quick", "walk");
+  expect_refused("run quick --jobs 0", "--jobs");
+  expect_refused("run quick --samples -1", "--samples");
+  expect_refused("reference no_such_folder", "no_such_folder");
+  expect_refused("register . --condition no_such_condition", "no_such_condition");
+  expect_refused("evaluate .", "anatomy.h5");
+  expect_refused("export . --format dxf", "dxf");
+  EXPECT_THAT(files(), IsEmpty());
+}
+
+TEST_F(Program, HasHelpWithExamplesForEveryCommand)
+{
+  for (const char *command : {"", "run", "anatomy", "reference", "observe", "register", "evaluate", "report", "export"})
+  {
+    const Outcome outcome = call(std::string(command) + " --help");
+    EXPECT_EQ(outcome.status, 0) << command;
+    EXPECT_THAT(outcome.out, HasSubstr("Example")) << command;
+    EXPECT_THAT(outcome.err, IsEmpty());
+  }
+}
+
+TEST_F(Program, ListsItsCases)
+{
+  const Outcome outcome = call("cases");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("quick"));
+  EXPECT_THAT(outcome.out, HasSubstr("t005"));
+}
+} // namespace pelvireg
