@@ -32,16 +32,29 @@ struct Organ
   vtkSmartPointer<vtkPolyData> surface;
 };
 
-struct Box
+/// Points that a picture has to show.
+class Shown
 {
-  Vector3d lower = Vector3d::Constant(1e30), upper = Vector3d::Constant(-1e30);
-
+public:
   void add(const Points &points)
   {
-    lower = lower.cwiseMin(points.colwise().minCoeff().transpose());
-    upper = upper.cwiseMax(points.colwise().maxCoeff().transpose());
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+      points_.emplace_back(points.row(i));
   }
-  Vector3d centre() const { return 0.5 * (lower + upper); }
+  const std::vector<Vector3d> &points() const { return points_; }
+  Vector3d centre() const
+  {
+    Vector3d lower = points_.front(), upper = lower;
+    for (const Vector3d &point : points_)
+    {
+      lower = lower.cwiseMin(point);
+      upper = upper.cwiseMax(point);
+    }
+    return 0.5 * (lower + upper);
+  }
+
+private:
+  std::vector<Vector3d> points_;
 };
 
 using Bars = std::vector<std::pair<Vector3d, Vector3d>>;
@@ -51,7 +64,7 @@ struct RestScene
 {
   std::vector<Organ> organs;
   vtkSmartPointer<vtkPolyData> floor, bars;
-  Box box;
+  Shown shown;
 };
 
 RestScene rest_of(const Anatomy &anatomy)
@@ -61,21 +74,21 @@ RestScene rest_of(const Anatomy &anatomy)
     if (organ_colours.contains(body.name))
     {
       rest.organs.push_back({body.name, to_vtk(body.points, body.outer_triangles, body.outer_region)});
-      rest.box.add(body.points);
+      rest.shown.add(body.points);
     }
   for (const ReferenceShell &shell : anatomy.reference.shells)
     if (shell.name == "pelvic_floor")
     {
       const SurfaceMesh surface = outer_surface(shell);
       rest.floor = to_vtk(surface.points, surface.triangles, surface.region);
-      rest.box.add(surface.points);
+      rest.shown.add(surface.points);
     }
   const Bars bars = bars_at_rest(anatomy.reference);
   rest.bars = to_vtk(bars);
   for (const auto &[a, b] : bars)
   {
-    rest.box.add(a.transpose());
-    rest.box.add(b.transpose());
+    rest.shown.add(a.transpose());
+    rest.shown.add(b.transpose());
   }
   return rest;
 }
@@ -91,27 +104,23 @@ std::vector<std::pair<std::string, Colour>> legend()
 void draw_anatomy(const Anatomy &anatomy, View view, const std::filesystem::path &file)
 {
   const RestScene rest = rest_of(anatomy);
+  const bool cut = view == View::sagittal;
   Scene scene;
   for (const Organ &organ : rest.organs)
-  {
-    const bool cut = view == View::sagittal;
-    scene.add_surface(cut ? right_of(organ.surface, anatomy.dyn_plane).Get() : organ.surface.Get(),
-                      organ_colours.at(organ.name));
-  }
+    if (cut)
+      scene.add_cut_surface(organ.surface, organ_colours.at(organ.name), anatomy.dyn_plane);
+    else
+      scene.add_surface(organ.surface, organ_colours.at(organ.name));
   if (rest.floor)
-  {
-    const bool cut = view == View::sagittal;
     scene.add_surface(cut ? right_of(rest.floor, anatomy.dyn_plane).Get() : rest.floor.Get(), floor_colour, 0.55);
-  }
-  const auto bars = view == View::sagittal ? right_of(rest.bars, anatomy.dyn_plane) : rest.bars;
-  scene.add_tubes(bars, bar_colour, 0.7);
-  if (view == View::oblique)
-    scene.add_plane(anatomy.dyn_plane, rest.box.centre(), 75);
+  scene.add_tubes(cut ? right_of(rest.bars, anatomy.dyn_plane).Get() : rest.bars.Get(), bar_colour, 0.7);
+  if (!cut)
+    scene.add_plane(anatomy.dyn_plane, rest.shown.centre(), 75);
   auto names = legend();
   names.emplace_back("pelvic floor", floor_colour);
   names.emplace_back("ligaments and fasciae", bar_colour);
   scene.add_legend(names);
-  scene.save(file, view, rest.box.lower, rest.box.upper);
+  scene.save(file, view, rest.shown.points());
 }
 
 /// The bodies of the registration: organs and the hexahedral bands that hold them.
@@ -121,10 +130,10 @@ void draw_registration_model(const Anatomy &anatomy, const std::filesystem::path
   constexpr int faces[12][3] = {{0, 3, 2}, {0, 2, 1}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
                                 {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
   Scene scene;
-  Box box;
+  Shown shown;
   for (const RegistrationBody &body : anatomy.registration.bodies)
   {
-    box.add(body.points);
+    shown.add(body.points);
     if (body.hexes.rows() == 0)
     {
       scene.add_surface(to_vtk(body.points, body.outer_triangles, body.outer_region), organ_colours.at(body.name));
@@ -141,7 +150,7 @@ void draw_registration_model(const Anatomy &anatomy, const std::filesystem::path
   auto names = legend();
   names.emplace_back("ligaments and fasciae (hexahedra)", bar_colour);
   scene.add_legend(names);
-  scene.save(file, View::oblique, box.lower, box.upper);
+  scene.save(file, View::oblique, shown.points());
 }
 
 Points last_positions(const TruthSurface &surface)
@@ -162,54 +171,63 @@ std::pair<Points, Points> arrows_of(const TruthSurface &surface)
   return {surface.rest.points(chosen, Eigen::all), surface.displacements.back()(chosen, Eigen::all)};
 }
 
+void draw_truth_surface(Scene &scene, const TruthSurface &surface, View view, const Plane &plane)
+{
+  const auto deformed = to_vtk(last_positions(surface), surface.rest.triangles, surface.rest.region);
+  const auto colour = organ_colours.find(surface.name);
+  const bool cut = view == View::sagittal;
+  if (colour == organ_colours.end()) // the floor is not closed
+    scene.add_surface(cut ? right_of(deformed, plane).Get() : deformed.Get(), floor_colour, 0.45);
+  else if (cut)
+  {
+    scene.add_cut_surface(deformed, colour->second, plane);
+    scene.add_outline(to_vtk(surface.rest.points, surface.rest.triangles, surface.rest.region), ghost_colour, plane,
+                      0.35);
+  }
+  else
+  {
+    scene.add_surface(deformed, colour->second);
+    const auto [feet, vectors] = arrows_of(surface);
+    scene.add_arrows(feet, vectors, arrow_colour);
+  }
+}
+
 void draw_truth(const Anatomy &anatomy, const Truth &truth, View view, const std::filesystem::path &file)
 {
   Scene scene;
-  Box box;
-  const auto shown = [&](vtkSmartPointer<vtkPolyData> surface)
-  { return view == View::sagittal ? right_of(surface, anatomy.dyn_plane) : surface; };
+  Shown shown;
   for (const TruthSurface &surface : truth.surfaces)
   {
-    const bool is_organ = organ_colours.contains(surface.name);
-    const auto deformed = to_vtk(last_positions(surface), surface.rest.triangles, surface.rest.region);
-    scene.add_surface(shown(deformed), is_organ ? organ_colours.at(surface.name) : floor_colour, is_organ ? 1 : 0.45);
-    box.add(surface.rest.points);
-    box.add(last_positions(surface));
-    if (!is_organ)
-      continue;
-    const auto rest = to_vtk(surface.rest.points, surface.rest.triangles, surface.rest.region);
-    if (view == View::sagittal)
-      scene.add_surface(shown(rest), ghost_colour, 0.18);
-    else
-    {
-      const auto [feet, vectors] = arrows_of(surface);
-      scene.add_arrows(feet, vectors, arrow_colour);
-    }
+    draw_truth_surface(scene, surface, view, anatomy.dyn_plane);
+    shown.add(surface.rest.points);
+    shown.add(last_positions(surface));
   }
   Bars bars;
   for (const TruthTruss &truss : truth.trusses)
   {
     const Points &ends = truss.positions.empty() ? truss.rest : truss.positions.back();
     bars.emplace_back(ends.row(0), ends.row(1));
-    box.add(ends);
+    shown.add(ends);
   }
-  scene.add_tubes(shown(to_vtk(bars)), bar_colour, 0.7);
+  const bool cut = view == View::sagittal;
+  scene.add_tubes(cut ? right_of(to_vtk(bars), anatomy.dyn_plane).Get() : to_vtk(bars).Get(), bar_colour, 0.7);
   auto names = legend();
-  if (view == View::sagittal)
-    names.emplace_back("rest shape", ghost_colour);
+  if (cut)
+    names.emplace_back("outline at rest", ghost_colour);
   else
+  {
     names.emplace_back("displacement, true length", arrow_colour);
+    scene.add_plane(anatomy.dyn_plane, shown.centre(), 75);
+  }
   scene.add_legend(names);
-  if (view == View::oblique)
-    scene.add_plane(anatomy.dyn_plane, box.centre(), 75);
-  scene.save(file, view, box.lower, box.upper);
+  scene.save(file, view, shown.points());
 }
 
 /// Distance of each point of the truth's last surface to the registered surface: the error of the tables, by point.
 void draw_error(const Truth &truth, const Estimate &estimate, View view, const std::filesystem::path &file)
 {
   Scene scene;
-  Box box;
+  Shown shown;
   for (const EstimateSurface &registered : estimate.samples.front().surfaces)
   {
     const auto surface = std::find_if(truth.surfaces.begin(), truth.surfaces.end(),
@@ -224,11 +242,11 @@ void draw_error(const Truth &truth, const Estimate &estimate, View view, const s
     add_point_array(data, "error_mm", Eigen::Map<const Eigen::VectorXd>(error.data(), error.size()));
     scene.add_coloured_surface(data, "error_mm", error_scale);
     scene.add_wireframe(to_vtk(estimated, registered.rest.triangles, registered.rest.region), estimate_colour, 0.35);
-    box.add(positions);
-    box.add(estimated);
+    shown.add(positions);
+    shown.add(estimated);
   }
   scene.add_scale("error, mm", error_scale);
-  scene.save(file, view, box.lower, box.upper);
+  scene.save(file, view, shown.points());
 }
 } // namespace
 
@@ -239,7 +257,8 @@ std::vector<Picture> picture_list()
       {"anatomy_sagittal.png", "The pelvis at rest, cut open along the DYN plane, seen from the left."},
       {"registration_model.png", "The registration's bodies: hollow organs, full uterus, hexahedral supports."},
       {"truth_oblique.png", "The truth at the last increment; arrows are the displacements from rest, at true length."},
-      {"truth_sagittal.png", "The truth at the last increment, cut open along the DYN plane; grey is the rest shape."},
+      {"truth_sagittal.png",
+       "The truth at the last increment, cut open along the DYN plane; grey lines are the outlines at rest."},
       {"error_oblique.png", "The truth at the last increment, coloured by its distance to the registered surface "
                             "(lines; condition full)."},
       {"error_sagittal.png", "The same, seen from the left. Above the end of the scale the colour stays yellow."},

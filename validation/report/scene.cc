@@ -5,12 +5,14 @@
 #include <vtkActor.h>
 #include <vtkArrowSource.h>
 #include <vtkCamera.h>
-#include <vtkCleanPolyData.h>
+#include <vtkClipClosedSurface.h>
 #include <vtkClipPolyData.h>
 #include <vtkColorTransferFunction.h>
+#include <vtkCutter.h>
 #include <vtkGlyph3D.h>
 #include <vtkLightKit.h>
 #include <vtkPlane.h>
+#include <vtkPlaneCollection.h>
 #include <vtkPlaneSource.h>
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
@@ -19,6 +21,7 @@
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkScalarBarActor.h>
+#include <vtkStripper.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTubeFilter.h>
@@ -80,10 +83,12 @@ Scene::Scene()
 {
   renderer_->SetBackground(1, 1, 1);
   renderer_->SetUseDepthPeeling(1);
-  renderer_->SetMaximumNumberOfPeels(12);
+  renderer_->SetMaximumNumberOfPeels(6);
   renderer_->SetOcclusionRatio(0.0);
   vtkNew<vtkLightKit> lights;
-  lights->SetKeyLightIntensity(0.85);
+  lights->SetKeyLightIntensity(0.8);
+  lights->SetKeyToFillRatio(1.6);
+  lights->SetKeyToHeadRatio(2.0);
   lights->AddLightsToRenderer(renderer_);
 }
 
@@ -108,8 +113,8 @@ void Scene::add_coloured_surface(vtkPolyData *surface, const std::string &array,
   mapper->SetLookupTable(viridis(maximum));
   mapper->UseLookupTableScalarRangeOn();
   const auto actor = actor_of(mapper, {1, 1, 1}, 1);
-  actor->GetProperty()->SetAmbient(0.25); // the colour is a figure: keep shading weak
-  actor->GetProperty()->SetDiffuse(0.8);
+  actor->GetProperty()->SetAmbient(0.45); // the colour is a figure: keep shading weak
+  actor->GetProperty()->SetDiffuse(0.6);
   actor->GetProperty()->SetSpecular(0);
   renderer_->AddActor(actor);
 }
@@ -134,6 +139,7 @@ void Scene::add_scale(const std::string &title, double maximum)
   bar->SetWidth(0.1);
   bar->SetHeight(0.7);
   renderer_->AddActor2D(bar);
+  has_scale_ = true;
 }
 
 void Scene::add_wireframe(vtkPolyData *surface, const Colour &colour, double opacity)
@@ -188,7 +194,7 @@ void Scene::add_plane(const dataset::Plane &plane, const Eigen::Vector3d &centre
   const Eigen::Vector3d up = (Eigen::Vector3d::UnitZ() - plane.normal.z() * plane.normal).normalized() * half_size;
   const Eigen::Vector3d aside = up.cross(plane.normal);
   std::array<Eigen::Vector3d, 4> corners = {middle - aside - up, middle + aside - up, middle + aside + up,
-                                                  middle - aside + up};
+                                            middle - aside + up};
   vtkNew<vtkPlaneSource> source;
   source->SetOrigin(corners[0].data());
   source->SetPoint1(corners[1].data());
@@ -204,39 +210,83 @@ void Scene::add_plane(const dataset::Plane &plane, const Eigen::Vector3d &centre
   add_tubes(to_vtk(border), {0.25, 0.4, 0.7}, 0.35);
 }
 
+void Scene::add_cut_surface(vtkPolyData *surface, const Colour &colour, const dataset::Plane &plane)
+{
+  vtkNew<vtkPlane> function; // vtkClipClosedSurface keeps the side to which the normal points
+  function->SetOrigin(plane.origin.data());
+  function->SetNormal(-plane.normal.x(), -plane.normal.y(), -plane.normal.z());
+  vtkNew<vtkPlaneCollection> planes;
+  planes->AddItem(function);
+  vtkNew<vtkClipClosedSurface> clip;
+  clip->SetInputData(surface);
+  clip->SetClippingPlanes(planes);
+  clip->SetScalarModeToColors();
+  clip->SetBaseColor(colour[0], colour[1], colour[2]);
+  clip->SetClipColor(0.45 + 0.55 * colour[0], 0.45 + 0.55 * colour[1], 0.45 + 0.55 * colour[2]);
+  clip->Update();
+  const auto mapper = smooth_mapper(clip->GetOutput());
+  mapper->ScalarVisibilityOn();
+  mapper->SetScalarModeToUseCellData();
+  renderer_->AddActor(actor_of(mapper, colour, 1));
+  add_outline(surface, colour, plane, 0.7);
+}
+
+void Scene::add_outline(vtkPolyData *surface, const Colour &colour, const dataset::Plane &plane, double radius)
+{
+  vtkNew<vtkPlane> function;
+  function->SetOrigin(plane.origin.data());
+  function->SetNormal(plane.normal.data());
+  vtkNew<vtkCutter> cutter;
+  cutter->SetInputData(surface);
+  cutter->SetCutFunction(function);
+  vtkNew<vtkStripper> stripper;
+  stripper->SetInputConnection(cutter->GetOutputPort());
+  stripper->JoinContiguousSegmentsOn();
+  stripper->Update();
+  if (stripper->GetOutput()->GetNumberOfPoints() > 0)
+    add_tubes(stripper->GetOutput(), colour, radius);
+}
+
 void Scene::add_legend(const std::vector<std::pair<std::string, Colour>> &entries)
 {
-  double y = height - 44;
+  double x = 20;
   for (const auto &[name, colour] : entries)
   {
     vtkNew<vtkTextActor> text;
     text->SetInput(name.c_str());
-    text->SetPosition(20, y);
+    text->SetPosition(x, 18);
     text->GetTextProperty()->SetFontSize(24);
     text->GetTextProperty()->BoldOn();
     text->GetTextProperty()->SetColor(0.8 * colour[0], 0.8 * colour[1], 0.8 * colour[2]);
     renderer_->AddActor2D(text);
-    y -= 32;
+    x += 13.5 * static_cast<double>(name.size()) + 34; // mean width of a letter of this font
   }
+  has_legend_ = true;
 }
 
-void Scene::save(const std::filesystem::path &file, View view, const Eigen::Vector3d &lower,
-                 const Eigen::Vector3d &upper)
+void Scene::save(const std::filesystem::path &file, View view, const std::vector<Eigen::Vector3d> &shown)
 {
-  const Eigen::Vector3d centre = 0.5 * (lower + upper);
   const Eigen::Vector3d from =
       view == View::sagittal ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0.72, -0.85, 0.42).normalized();
   const Eigen::Vector3d right = (-from).cross(Eigen::Vector3d::UnitZ()).normalized(), up = right.cross(-from);
-  const Eigen::Vector3d half = 0.5 * (upper - lower);
-  const double half_width = half.dot(right.cwiseAbs()), half_height = half.dot(up.cwiseAbs());
+  Eigen::Vector2d lower = Eigen::Vector2d::Constant(1e30), upper = -lower;
+  for (const Eigen::Vector3d &point : shown)
+  {
+    lower = lower.cwiseMin(Eigen::Vector2d(point.dot(right), point.dot(up)));
+    upper = upper.cwiseMax(Eigen::Vector2d(point.dot(right), point.dot(up)));
+  }
+  const Eigen::Vector2d middle = 0.5 * (lower + upper), half = 0.5 * (upper - lower);
+  // what the scale on the right and the legend at the bottom leave free
+  const double free_width = has_scale_ ? 0.84 : 1.0, free_height = has_legend_ ? 0.93 : 1.0;
 
   vtkCamera *camera = renderer_->GetActiveCamera();
   camera->ParallelProjectionOn();
-  camera->SetFocalPoint(centre.data());
-  const Eigen::Vector3d position = centre + 500 * from;
+  const Eigen::Vector3d focus = middle[0] * right + middle[1] * up, position = focus + 500 * from;
+  camera->SetFocalPoint(focus.data());
   camera->SetPosition(position.data());
   camera->SetViewUp(0, 0, 1);
-  camera->SetParallelScale(1.06 * std::max(half_height, half_width * height / width));
+  camera->SetParallelScale(1.05 * std::max(half[1] / free_height, half[0] * height / (free_width * width)));
+  camera->SetWindowCenter(1 - free_width, free_height - 1);
   renderer_->ResetCameraClippingRange();
 
   vtkNew<vtkRenderWindow> window;

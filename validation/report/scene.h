@@ -42,15 +42,21 @@ public:
   void add_arrows(const dataset::Points &feet, const dataset::Points &vectors, const Colour &colour);
   /// A rectangle of the plane about the point nearest to `centre`, `half_size` mm to each side.
   void add_plane(const dataset::Plane &plane, const Eigen::Vector3d &centre, double half_size);
-  /// Names in their colours, in the upper left corner.
+  /// The part of a closed surface on the negative side of the plane (what lies to the left is taken away), with the cut
+  /// face in a light tint and its outline in the full colour.
+  void add_cut_surface(vtkPolyData *surface, const Colour &colour, const dataset::Plane &plane);
+  /// The outline of a surface in the plane.
+  void add_outline(vtkPolyData *surface, const Colour &colour, const dataset::Plane &plane, double radius);
+  /// Names in their colours, in a row at the bottom.
   void add_legend(const std::vector<std::pair<std::string, Colour>> &entries);
 
-  /// Draw everything seen from `view`, so that the box [lower, upper] fills the picture, and write a PNG.
+  /// Draw everything seen from `view`, so that `shown` (points, mm) fills the picture, and write a PNG.
   /// Throws std::runtime_error when the file cannot be written.
-  void save(const std::filesystem::path &file, View view, const Eigen::Vector3d &lower, const Eigen::Vector3d &upper);
+  void save(const std::filesystem::path &file, View view, const std::vector<Eigen::Vector3d> &shown);
 
 private:
   vtkNew<vtkRenderer> renderer_;
+  bool has_scale_ = false, has_legend_ = false;
 };
 
 /// The part of a surface on the negative side of the plane (its left side is taken away).
