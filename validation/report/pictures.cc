@@ -41,17 +41,8 @@ public:
     for (Eigen::Index i = 0; i < points.rows(); ++i)
       points_.emplace_back(points.row(i));
   }
+  void add(const std::vector<Vector3d> &points) { points_.insert(points_.end(), points.begin(), points.end()); }
   const std::vector<Vector3d> &points() const { return points_; }
-  Vector3d centre() const
-  {
-    Vector3d lower = points_.front(), upper = lower;
-    for (const Vector3d &point : points_)
-    {
-      lower = lower.cwiseMin(point);
-      upper = upper.cwiseMax(point);
-    }
-    return 0.5 * (lower + upper);
-  }
 
 private:
   std::vector<Vector3d> points_;
@@ -64,7 +55,7 @@ struct RestScene
 {
   std::vector<Organ> organs;
   vtkSmartPointer<vtkPolyData> floor, bars;
-  Shown shown;
+  Shown organ_points, shown;
 };
 
 RestScene rest_of(const Anatomy &anatomy)
@@ -74,7 +65,7 @@ RestScene rest_of(const Anatomy &anatomy)
     if (organ_colours.contains(body.name))
     {
       rest.organs.push_back({body.name, to_vtk(body.points, body.outer_triangles, body.outer_region)});
-      rest.shown.add(body.points);
+      rest.organ_points.add(body.points);
     }
   for (const ReferenceShell &shell : anatomy.reference.shells)
     if (shell.name == "pelvic_floor")
@@ -83,6 +74,7 @@ RestScene rest_of(const Anatomy &anatomy)
       rest.floor = to_vtk(surface.points, surface.triangles, surface.region);
       rest.shown.add(surface.points);
     }
+  rest.shown.add(rest.organ_points.points());
   const Bars bars = bars_at_rest(anatomy.reference);
   rest.bars = to_vtk(bars);
   for (const auto &[a, b] : bars)
@@ -103,7 +95,7 @@ std::vector<std::pair<std::string, Colour>> legend()
 
 void draw_anatomy(const Anatomy &anatomy, View view, const std::filesystem::path &file)
 {
-  const RestScene rest = rest_of(anatomy);
+  RestScene rest = rest_of(anatomy);
   const bool cut = view == View::sagittal;
   Scene scene;
   for (const Organ &organ : rest.organs)
@@ -115,7 +107,7 @@ void draw_anatomy(const Anatomy &anatomy, View view, const std::filesystem::path
     scene.add_surface(cut ? right_of(rest.floor, anatomy.dyn_plane).Get() : rest.floor.Get(), floor_colour, 0.55);
   scene.add_tubes(cut ? right_of(rest.bars, anatomy.dyn_plane).Get() : rest.bars.Get(), bar_colour, 0.7);
   if (!cut)
-    scene.add_plane(anatomy.dyn_plane, rest.shown.centre(), 75);
+    rest.shown.add(scene.add_plane(anatomy.dyn_plane, rest.organ_points.points()));
   auto names = legend();
   names.emplace_back("pelvic floor", floor_colour);
   names.emplace_back("ligaments and fasciae", bar_colour);
@@ -195,12 +187,14 @@ void draw_truth_surface(Scene &scene, const TruthSurface &surface, View view, co
 void draw_truth(const Anatomy &anatomy, const Truth &truth, View view, const std::filesystem::path &file)
 {
   Scene scene;
-  Shown shown;
+  Shown organ_points, shown;
   for (const TruthSurface &surface : truth.surfaces)
   {
     draw_truth_surface(scene, surface, view, anatomy.dyn_plane);
     shown.add(surface.rest.points);
     shown.add(last_positions(surface));
+    if (organ_colours.contains(surface.name))
+      organ_points.add(last_positions(surface));
   }
   Bars bars;
   for (const TruthTruss &truss : truth.trusses)
@@ -217,7 +211,7 @@ void draw_truth(const Anatomy &anatomy, const Truth &truth, View view, const std
   else
   {
     names.emplace_back("displacement, true length", arrow_colour);
-    scene.add_plane(anatomy.dyn_plane, shown.centre(), 75);
+    shown.add(scene.add_plane(anatomy.dyn_plane, organ_points.points()));
   }
   scene.add_legend(names);
   scene.save(file, view, shown.points());

@@ -95,12 +95,11 @@ std::string failure_of(const std::optional<int> &status, const fs::path &log, do
 {
   std::ostringstream text;
   if (!status)
-    text << "No pictures: drawing took longer than " << time_limit_s << " s.";
+    text << "drawing took longer than " << time_limit_s << " s.";
   else if (WIFSIGNALED(*status))
-    text << "No pictures: the drawing program was ended by signal " << WTERMSIG(*status) << ".";
+    text << "the drawing program was ended by signal " << WTERMSIG(*status) << ".";
   else
-    text << "No pictures: the drawing program ended with status " << WEXITSTATUS(*status) << " (" << last_line(log)
-         << ").";
+    text << "the drawing program ended with status " << WEXITSTATUS(*status) << " (" << last_line(log) << ").";
   return text.str();
 }
 } // namespace
@@ -112,19 +111,22 @@ RenderOutcome render_in_child(const fs::path &result, const fs::path &folder, co
   const fs::path executable = program.empty() ? fs::read_symlink("/proc/self/exe", error) : program;
   fs::create_directories(folder, error);
   if (error)
-    return {false, "No pictures: the folder " + folder.string() + " cannot be made (" + error.message() + ")."};
+    return {false, "the folder " + folder.string() + " cannot be made (" + error.message() + ")."};
+
+  for (const Picture &picture : picture_list()) // a failure must not leave those of an earlier result
+    fs::remove(folder / picture.file, error);
 
   std::vector<std::string> words;
   if (const auto xvfb_run = find_in_path("xvfb-run"))
     words = {xvfb_run->string(), "-a", "-s", "-screen 0 1600x1200x24"};
   else if (!std::getenv("DISPLAY"))
-    return {false, "No pictures: there is no X display and no xvfb-run; install the package xvfb."};
+    return {false, "there is no X display and no xvfb-run; install the package xvfb."};
   words.insert(words.end(), {executable.string(), "render", result.string(), folder.string()});
 
   const fs::path log = folder / "render.log";
   const pid_t child = start(words, log);
   if (child < 0)
-    return {false, "No pictures: " + words.front() + " could not be started."};
+    return {false, words.front() + " could not be started."};
   const auto status = wait_for(child, time_limit_s);
   const bool ok = status && WIFEXITED(*status) && WEXITSTATUS(*status) == 0;
   const RenderOutcome outcome = {ok, ok ? "" : failure_of(status, log, time_limit_s)};

@@ -188,13 +188,21 @@ void Scene::add_arrows(const dataset::Points &feet, const dataset::Points &vecto
   renderer_->AddActor(actor_of(mapper, colour, 1));
 }
 
-void Scene::add_plane(const dataset::Plane &plane, const Eigen::Vector3d &centre, double half_size)
+std::vector<Eigen::Vector3d> Scene::add_plane(const dataset::Plane &plane, const std::vector<Eigen::Vector3d> &points)
 {
-  const Eigen::Vector3d middle = centre - (centre - plane.origin).dot(plane.normal) * plane.normal;
-  const Eigen::Vector3d up = (Eigen::Vector3d::UnitZ() - plane.normal.z() * plane.normal).normalized() * half_size;
+  constexpr double margin = 6; // mm
+  const Eigen::Vector3d up = (Eigen::Vector3d::UnitZ() - plane.normal.z() * plane.normal).normalized();
   const Eigen::Vector3d aside = up.cross(plane.normal);
-  std::array<Eigen::Vector3d, 4> corners = {middle - aside - up, middle + aside - up, middle + aside + up,
-                                            middle - aside + up};
+  Eigen::Vector2d lower = Eigen::Vector2d::Constant(1e30), upper = -lower;
+  for (const Eigen::Vector3d &point : points)
+  {
+    const Eigen::Vector3d relative = point - plane.origin;
+    lower = lower.cwiseMin(Eigen::Vector2d(relative.dot(aside) - margin, relative.dot(up) - margin));
+    upper = upper.cwiseMax(Eigen::Vector2d(relative.dot(aside) + margin, relative.dot(up) + margin));
+  }
+  const auto corner = [&](double a, double b) -> Eigen::Vector3d { return plane.origin + a * aside + b * up; };
+  std::vector<Eigen::Vector3d> corners = {corner(lower[0], lower[1]), corner(upper[0], lower[1]),
+                                          corner(upper[0], upper[1]), corner(lower[0], upper[1])};
   vtkNew<vtkPlaneSource> source;
   source->SetOrigin(corners[0].data());
   source->SetPoint1(corners[1].data());
@@ -208,6 +216,7 @@ void Scene::add_plane(const dataset::Plane &plane, const Eigen::Vector3d &centre
   for (int i = 0; i < 4; ++i)
     border.emplace_back(corners[i], corners[(i + 1) % 4]);
   add_tubes(to_vtk(border), {0.25, 0.4, 0.7}, 0.35);
+  return corners;
 }
 
 void Scene::add_cut_surface(vtkPolyData *surface, const Colour &colour, const dataset::Plane &plane)

@@ -40,8 +40,8 @@ public:
   void add_tubes(vtkPolyData *lines, const Colour &colour, double radius, double opacity = 1);
   /// Arrows from `feet` along `vectors` (k x 3, mm), at true length.
   void add_arrows(const dataset::Points &feet, const dataset::Points &vectors, const Colour &colour);
-  /// A rectangle of the plane about the point nearest to `centre`, `half_size` mm to each side.
-  void add_plane(const dataset::Plane &plane, const Eigen::Vector3d &centre, double half_size);
+  /// The rectangle of the plane that holds the projections of `points`, with a margin. Returns its corners.
+  std::vector<Eigen::Vector3d> add_plane(const dataset::Plane &plane, const std::vector<Eigen::Vector3d> &points);
   /// The part of a closed surface on the negative side of the plane (what lies to the left is taken away), with the cut
   /// face in a light tint and its outline in the full colour.
   void add_cut_surface(vtkPolyData *surface, const Colour &colour, const dataset::Plane &plane);
