@@ -5,9 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-#include <functional>
+#include <cstddef>
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pelvireg::runner
 {
@@ -37,6 +42,206 @@ void expect_refusal(const dataset::Observations &observations, const std::string
   {
     EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
   }
+}
+
+/// A cube of `size` mm, n^3 cells of six tetrahedra each (Kuhn), with its boundary as outer surface.
+dataset::RegistrationBody cube(const std::string &name, const Eigen::Vector3d &corner, double size, int n)
+{
+  dataset::RegistrationBody body;
+  body.name = name;
+  body.youngs_modulus = 0.5;
+  const auto node = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
+  body.points.resize((n + 1) * (n + 1) * (n + 1), 3);
+  std::vector<std::array<int, 4>> tets;
+  for (int k = 0; k <= n; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+      {
+        body.points.row(node(i, j, k)) = corner + size / n * Eigen::Vector3d(i, j, k);
+        if (i == n || j == n || k == n)
+          continue;
+        const std::array<std::array<int, 3>, 6> orders = {
+            {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+        for (std::size_t order = 0; order < 6; ++order)
+        {
+          std::array<int, 3> at = {i, j, k};
+          std::array<int, 4> tet = {node(i, j, k), 0, 0, 0};
+          for (std::size_t step = 0; step < 3; ++step)
+          {
+            ++at[static_cast<std::size_t>(orders[order][step])];
+            tet[step + 1] = node(at[0], at[1], at[2]);
+          }
+          if (order >= 3) // odd permutations are inverted
+            std::swap(tet[2], tet[3]);
+          tets.push_back(tet);
+        }
+      }
+  body.tets.resize(static_cast<Eigen::Index>(tets.size()), 4);
+  std::map<std::set<int>, std::vector<std::array<int, 3>>> faces;
+  for (std::size_t t = 0; t < tets.size(); ++t)
+  {
+    const auto &[a, b, c, d] = tets[t];
+    body.tets.row(static_cast<Eigen::Index>(t)) << a, b, c, d;
+    for (const std::array<int, 3> &face : {std::array{a, c, b}, {a, b, d}, {b, c, d}, {a, d, c}})
+      faces[{face[0], face[1], face[2]}].push_back(face);
+  }
+  std::vector<std::array<int, 3>> boundary;
+  for (const auto &[nodes, uses] : faces)
+    if (uses.size() == 1)
+      boundary.push_back(uses.front());
+  body.outer_triangles.resize(static_cast<Eigen::Index>(boundary.size()), 3);
+  for (std::size_t t = 0; t < boundary.size(); ++t)
+    body.outer_triangles.row(static_cast<Eigen::Index>(t)) << boundary[t][0], boundary[t][1], boundary[t][2];
+  body.outer_region = dataset::Integers::Zero(body.outer_triangles.rows());
+  return body;
+}
+
+/// Four cubes cut in the middle by the plane x = 0; one frame that moves each outline by 1 mm in +y.
+dataset::Anatomy cube_anatomy()
+{
+  dataset::Anatomy anatomy;
+  anatomy.case_name = "spheres";
+  anatomy.registration_steps_per_increment = 3;
+  for (std::size_t organ = 0; organ < dataset::organ_names.size(); ++organ)
+    anatomy.registration.bodies.push_back(
+        cube(dataset::organ_names[organ], {-11, 0, 40.0 * static_cast<double>(organ)}, 20, 3));
+  // A support of the vagina's far end, so that its moduli matter: a second body held on the first.
+  dataset::RegistrationBody support = cube("ligaments", {-11, 20, 40}, 10, 2);
+  for (int node = 0; node < support.points.rows(); ++node)
+    if (support.points(node, 1) > 29.9)
+    {
+      support.fixed_nodes.conservativeResize(support.fixed_nodes.size() + 1);
+      support.fixed_nodes[support.fixed_nodes.size() - 1] = node;
+    }
+  dataset::RegistrationAttachment hold{"cardinal", "ligament", "ligaments", {}, "vagina"};
+  for (int node = 0; node < support.points.rows(); ++node)
+    if (support.points(node, 1) < 20.1)
+    {
+      hold.nodes_a.conservativeResize(hold.nodes_a.size() + 1);
+      hold.nodes_a[hold.nodes_a.size() - 1] = node;
+    }
+  support.outer_triangles.resize(0, 3);
+  support.outer_region.resize(0);
+  anatomy.registration.bodies.push_back(support);
+  anatomy.registration.attachments.push_back(hold);
+  return anatomy;
+}
+
+dataset::Observations cube_observations()
+{
+  dataset::Observations observations = one_frame();
+  for (std::size_t organ = 0; organ < dataset::organ_names.size(); ++organ)
+  {
+    const double z = 40.0 * static_cast<double>(organ);
+    dataset::Points points(8, 3), normals(8, 3);
+    points << 0, 1, z + 6, 0, 1, z + 14, 0, 21, z + 6, 0, 21, z + 14, 0, 7, z, 0, 15, z, 0, 7, z + 20, 0, 15, z + 20;
+    normals << 0, -1, 0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, -1, 0, 0, -1, 0, 0, 1, 0, 0, 1;
+    observations.frames[0].control_points[organ] = points;
+    observations.frames[0].control_point_normals[organ] = normals;
+  }
+  return observations;
+}
+
+dataset::Estimate run_cubes(const std::string &condition, int samples, int n_threads)
+{
+  RunnerOptions options;
+  options.samples = samples;
+  options.n_threads = n_threads;
+  return run_registration(cube_anatomy(), cube_observations(), condition, options);
+}
+
+double mean_motion(const dataset::EstimateSurface &surface)
+{
+  return (surface.positions.back() - surface.rest.points).col(1).mean();
+}
+
+TEST(RunRegistration, PlaysEachPositionThreeTimesAndFollowsTheOutline)
+{
+  const dataset::Estimate estimate = run_cubes("full", 0, 1);
+  ASSERT_EQ(estimate.samples.size(), 1u);
+  const dataset::EstimateSample &run = estimate.samples[0];
+  ASSERT_EQ(run.steps.size(), 3u);
+  for (const dataset::StepRecord &step : run.steps)
+  {
+    EXPECT_EQ(step.status, "ok");
+    EXPECT_EQ(step.offered_control_points, 32);
+    EXPECT_EQ(step.accepted_control_points, 32);
+  }
+  for (const dataset::EstimateSurface &surface : run.surfaces)
+  {
+    ASSERT_EQ(surface.positions.size(), 3u);
+    EXPECT_NEAR(mean_motion(surface), 1.0, surface.name == "vagina" ? 0.5 : 0.1) << surface.name;
+  }
+}
+
+TEST(RunRegistration, WithoutBoundaryConditionsTheSupportDoesNotHold)
+{
+  // The vagina's corner at x = -11, 11 mm off the image plane, is a node of the patch that the support holds.
+  const auto corner_motion = [](const std::string &condition)
+  {
+    const dataset::EstimateSurface vagina = run_cubes(condition, 0, 1).samples[0].surfaces[1];
+    for (Eigen::Index node = 0; node < vagina.rest.points.rows(); ++node)
+      if ((vagina.rest.points.row(node) - Eigen::RowVector3d(-11, 20, 40)).norm() < 1e-9)
+        return vagina.positions.back()(node, 1) - 20;
+    return std::nan("");
+  };
+  EXPECT_LT(corner_motion("full"), 0.8 * corner_motion("no_boundary_conditions"));
+}
+
+TEST(RunRegistration, GivesTheSameBitsForOneAndTwoThreadsAndAnyNumberOfSamples)
+{
+  const dataset::Estimate one = run_cubes("full", 3, 1), two = run_cubes("full", 3, 2), fewer = run_cubes("full", 1, 1);
+  ASSERT_EQ(one.samples.size(), 4u);
+  for (std::size_t sample = 0; sample < 4; ++sample)
+    for (std::size_t organ = 0; organ < 4; ++organ)
+    {
+      EXPECT_EQ(one.samples[sample].sample, static_cast<int>(sample));
+      EXPECT_EQ(one.samples[sample].surfaces[organ].positions, two.samples[sample].surfaces[organ].positions);
+    }
+  EXPECT_EQ(one.samples[1].surfaces[1].positions, fewer.samples[1].surfaces[1].positions);
+}
+
+TEST(RunRegistration, RandomisedRunsDifferFromTheNominalOneAndFromEachOther)
+{
+  const dataset::Estimate estimate = run_cubes("full", 2, 1);
+  for (const auto &[a, b] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}})
+    EXPECT_NE(estimate.samples[a].surfaces[1].positions.back(), estimate.samples[b].surfaces[1].positions.back());
+}
+
+TEST(RunRegistration, SaysWhatTheRegistrationRefuses)
+{
+  dataset::Anatomy anatomy = cube_anatomy();
+  anatomy.registration.bodies[2].youngs_modulus = 0;
+  try
+  {
+    run_registration(anatomy, cube_observations(), "full", {});
+    FAIL() << "no refusal";
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("uterus"), std::string::npos) << error.what();
+  }
+}
+
+TEST(RunRegistration, TimesTheNominalRunAndReportsProgress)
+{
+  StepTiming timing;
+  RunnerOptions options;
+  double last = 0;
+  int n_calls = 0;
+  options.progress = [&](double fraction, const std::string &)
+  {
+    EXPECT_GT(fraction, last);
+    last = fraction;
+    ++n_calls;
+  };
+  run_registration(cube_anatomy(), cube_observations(), "full", options, &timing);
+  EXPECT_EQ(n_calls, 3);
+  EXPECT_EQ(last, 1.0);
+  EXPECT_EQ(timing.condition, "full");
+  EXPECT_EQ(timing.n_steps, 3);
+  EXPECT_GT(timing.median_ms, 0);
+  EXPECT_LE(timing.median_ms, timing.max_ms);
 }
 
 TEST(RunRegistration, RefusesAnUnknownConditionAndNamesTheKnownOnes)
