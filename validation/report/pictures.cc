@@ -22,7 +22,7 @@ const std::map<std::string, Colour> organ_colours = {{"bladder", {0.95, 0.80, 0.
                                                      {"uterus", {0.68, 0.36, 0.58}},
                                                      {"rectum", {0.60, 0.40, 0.26}}};
 const Colour floor_colour = {0.62, 0.62, 0.62}, bar_colour = {0.62, 0.76, 0.88}, ghost_colour = {0.45, 0.45, 0.45},
-             estimate_colour = {0.1, 0.1, 0.1}, arrow_colour = {0.1, 0.25, 0.6};
+             estimate_colour = {0.1, 0.1, 0.1}, arrow_colour = {0.1, 0.25, 0.6}, cap_colour = {0.85, 0.85, 0.85};
 constexpr double error_scale = 6; ///< mm, the same in every report, so that pictures can be compared
 
 /// Everything that one picture shows at one instant.
@@ -217,6 +217,16 @@ void draw_truth(const Anatomy &anatomy, const Truth &truth, View view, const std
   scene.save(file, view, shown.points());
 }
 
+/// The scored triangles, or the caps.
+Triangles triangles_where(const SurfaceMesh &surface, bool scored)
+{
+  std::vector<Eigen::Index> chosen;
+  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t)
+    if (metrics::is_scored(surface.region[t]) == scored)
+      chosen.push_back(t);
+  return surface.triangles(chosen, Eigen::all);
+}
+
 /// Distance of each point of the truth's last surface to the registered surface: the error of the tables, by point.
 void draw_error(const Truth &truth, const Estimate &estimate, View view, const std::filesystem::path &file)
 {
@@ -232,9 +242,10 @@ void draw_error(const Truth &truth, const Estimate &estimate, View view, const s
     const Points &estimated = registered.positions.back();
     const std::vector<double> error =
         metrics::surface_distances(positions, estimated, registered.rest.triangles, registered.rest.region);
-    const auto data = to_vtk(positions, surface->rest.triangles, surface->rest.region);
+    const auto data = to_vtk(positions, triangles_where(surface->rest, true), {});
     add_point_array(data, "error_mm", Eigen::Map<const Eigen::VectorXd>(error.data(), error.size()));
     scene.add_coloured_surface(data, "error_mm", error_scale);
+    scene.add_surface(to_vtk(positions, triangles_where(surface->rest, false), {}), cap_colour); // no metric there
     scene.add_wireframe(to_vtk(estimated, registered.rest.triangles, registered.rest.region), estimate_colour, 0.35);
     shown.add(positions);
     shown.add(estimated);
