@@ -91,7 +91,7 @@ struct BadValue
 const std::vector<BadValue> bad_values = {
     {"\nvagina = 0.66", "\nvagina = 0", "youngs_modulus.vagina"},
     {"\nwall = ", "\nwall = -", "wall"},
-    {"\ntilt = ", "\ntilted = ", "tilted"},
+    {"\ntilt = ", "\ntilted = 1\ntilt = ", "tilted"},
     {"\ntarget_displacement = 8.2", "\ntarget_displacement = nan", "target_displacement"},
     {"\nn_increments = 15", "\nn_increments = \"many\"", "n_increments"}};
 
@@ -149,7 +149,7 @@ TEST_F(Program, RefusesWhatItDoesNotKnow)
 {
   expect_refused("run no_such_case", "no_such_case");
   expect_refused("run", "CASE");
-  expect_refused("", "subcommand");
+  expect_refused("", "command");
   expect_refused("walk quick", "walk");
   expect_refused("run quick --jobs 0", "--jobs");
   expect_refused("run quick --samples -1", "--samples");

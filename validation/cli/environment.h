@@ -1,4 +1,4 @@
-// What has to hold before main() does any work.
+// What has to hold before any work is done.
 #pragma once
 
 namespace pelvireg::cli

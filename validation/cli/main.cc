@@ -33,7 +33,6 @@ void describe(CLI::App &program, pelvireg::cli::Invocation &invocation)
   using namespace pelvireg::cli;
   program.name("pelvireg");
   program.set_version_flag("--version", fmt::format("pelvireg {} (revision {}, {})", version(), revision(), build()));
-  program.require_subcommand(1);
   program.footer("Examples:\n"
                  "  pelvireg run quick             the whole chain on a coarse case, under half a minute\n"
                  "  pelvireg run t005              the paper's synthetic evaluation, results in out/t005\n"
@@ -76,6 +75,9 @@ int run(int argc, char **argv)
   {
     return fail(sentence_of(program, error), exit_bad_input);
   }
+  if (!invocation.action)
+    return fail("a command is required, for example 'run'; see 'pelvireg --help'", exit_bad_input);
+  pelvireg::cli::ensure_single_threaded_libraries(argv);
   invocation.action();
   return 0;
 }
@@ -83,7 +85,6 @@ int run(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-  pelvireg::cli::ensure_single_threaded_libraries(argv);
   try
   {
     return run(argc, argv);
