@@ -1,0 +1,45 @@
+// What the shell benchmarks share: a structured patch, edge loads, supports, load steps.
+#pragma once
+
+#include "reference_fe/elements/shell_term.h"
+#include "reference_fe/newton_solver.h"
+
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace pelvireg::reference_fe
+{
+using SurfaceMap = std::function<Eigen::Vector3d(double, double)>;
+
+/// n1 x n2 cells of order p over [0, 1]^2, moved by `map(s, t)`. `parameters` (2 x n_nodes) holds (s, t) of each node.
+ShellBody structured_shell(int n1, int n2, int order, double thickness, const SurfaceMap &map,
+                           Eigen::Matrix2Xd &parameters);
+
+/// Weights of the nodes with |distance(s, t)| < 1e-9 for a force of 1 spread evenly over that edge. `along(s, t)`
+/// orders them; its cells are of equal length.
+std::vector<std::pair<int, double>> edge_weights(const ShellBody &body, const Eigen::Matrix2Xd &parameters,
+                                                 const std::function<double(double, double)> &distance,
+                                                 const std::function<double(double, double)> &along);
+
+/// A shell alone in a system.
+struct SingleShell
+{
+  Eigen::Matrix2Xd parameters; ///< filled while `body` is made: must stay before it
+  ShellBody body;
+  EquilibriumSystem system;
+  int first = 0;
+
+  SingleShell(int n1, int n2, int order, double thickness, const SurfaceMap &map,
+              std::shared_ptr<const HyperelasticLaw> law, bool mixed_integration_points);
+
+  int unknown(int node, int component) const { return first + n_shell_unknowns * node + component; }
+  /// Nodes for which `selects(s, t)` holds.
+  std::vector<int> nodes_where(const std::function<bool(double, double)> &selects) const;
+  void fix(const std::vector<int> &nodes, const std::vector<int> &components);
+};
+
+/// A table of the source: comment lines begin with #, then one header line.
+std::vector<std::vector<double>> read_table(const std::string &file);
+} // namespace pelvireg::reference_fe
