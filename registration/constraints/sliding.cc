@@ -14,16 +14,18 @@ Eigen::Vector3d corner(const TriangleTree &tree, const Points &positions, int tr
   return positions.row(tree.triangles()(triangle, i)).transpose();
 }
 
-/// Unit; zero when the triangle is degenerate or almost parallel to the plane.
-Eigen::Vector3d in_plane_direction(const TriangleTree &tree, const Points &positions, int triangle,
-                                   const Eigen::Vector3d &plane_normal)
+Eigen::Vector3d triangle_normal(const TriangleTree &tree, const Points &positions, int triangle)
 {
   const Eigen::Vector3d a = corner(tree, positions, triangle, 0);
-  const Eigen::Vector3d normal =
-      (corner(tree, positions, triangle, 1) - a).cross(corner(tree, positions, triangle, 2) - a);
-  const Eigen::Vector3d projected = normal - normal.dot(plane_normal) * plane_normal;
+  return (corner(tree, positions, triangle, 1) - a).cross(corner(tree, positions, triangle, 2) - a);
+}
+
+/// Unit; zero when the surface normal is zero or almost that of the plane.
+Eigen::Vector3d in_plane_direction(const Eigen::Vector3d &surface_normal, const Eigen::Vector3d &plane_normal)
+{
+  const Eigen::Vector3d projected = surface_normal - surface_normal.dot(plane_normal) * plane_normal;
   const double length = projected.norm();
-  if (!(length > least_in_plane_part * normal.norm()))
+  if (!(length > least_in_plane_part * surface_normal.norm()))
     return Eigen::Vector3d::Zero();
   // Projected twice: the first pass leaves round-off of the order of the part it removed.
   const Eigen::Vector3d unit = projected / length;
@@ -38,7 +40,7 @@ SlidingMatch match_control_point(const TriangleTree &tree, const Points &positio
   const Eigen::Vector3d wanted = (contour_normal - contour_normal.dot(plane_normal) * plane_normal).normalized();
   const auto agrees = [&](int triangle)
   {
-    const Eigen::Vector3d direction = in_plane_direction(tree, positions, triangle, plane_normal);
+    const Eigen::Vector3d direction = in_plane_direction(triangle_normal(tree, positions, triangle), plane_normal);
     return !direction.isZero(0) && direction.dot(wanted) >= options.min_normal_agreement;
   };
   const NearestTriangle nearest = tree.nearest(point, options.max_match_distance, positions, agrees);
@@ -48,7 +50,11 @@ SlidingMatch match_control_point(const TriangleTree &tree, const Points &positio
   match.is_accepted = true;
   match.nodes = tree.triangles().row(nearest.triangle).transpose();
   match.weights = nearest.point.weights;
-  match.direction = in_plane_direction(tree, positions, nearest.triangle, plane_normal);
+  // The normal at q_s varies continuously; the triangle's own would make a point near a ridge flip between two
+  // directions from step to step, and never settle.
+  match.direction = in_plane_direction(tree.normal(nearest.triangle, match.weights), plane_normal);
+  if (match.direction.isZero(0))
+    match.direction = in_plane_direction(triangle_normal(tree, positions, nearest.triangle), plane_normal);
   Eigen::Vector3d on_surface = Eigen::Vector3d::Zero();
   for (int i = 0; i < 3; ++i)
     on_surface += match.weights[i] * corner(tree, positions, nearest.triangle, i);

@@ -11,10 +11,11 @@ namespace pelvireg::registration
 struct SlidingMatch
 {
   bool is_accepted = false;
-  Eigen::Vector3i nodes = Eigen::Vector3i::Zero();     ///< of the triangle
-  Eigen::Vector3d weights = Eigen::Vector3d::Zero();   ///< barycentric point q_s
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero(); ///< unit: triangle normal projected into the image plane
-  double gap = 0;                                      ///< direction . (m - q_s), mm
+  Eigen::Vector3i nodes = Eigen::Vector3i::Zero();   ///< of the triangle
+  Eigen::Vector3d weights = Eigen::Vector3d::Zero(); ///< barycentric point q_s
+  Eigen::Vector3d direction =
+      Eigen::Vector3d::Zero(); ///< unit: surface normal n_s at q_s, projected into the image plane
+  double gap = 0;              ///< direction . (m - q_s), mm
 };
 
 /// Nearest triangle whose outward normal, projected into the image plane, agrees with the contour's normal. Refused

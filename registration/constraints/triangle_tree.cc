@@ -1,5 +1,7 @@
 #include "registration/constraints/triangle_tree.h"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -60,6 +62,22 @@ void TriangleTree::refit(const Points &positions)
         for (int corner = 0; corner < 3; ++corner)
           node->box.extend(positions.row(triangles_(order_[k], corner)).transpose());
   }
+  vertex_normals_.setZero(positions.rows(), 3);
+  for (Eigen::Index t = 0; t < triangles_.rows(); ++t)
+  {
+    const auto corner = [&](int i) -> Eigen::Vector3d { return positions.row(triangles_(t, i)).transpose(); };
+    const Eigen::Vector3d area = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    for (int i = 0; i < 3; ++i)
+      vertex_normals_.row(triangles_(t, i)) += area.transpose();
+  }
+}
+
+Eigen::Vector3d TriangleTree::normal(int triangle, const Eigen::Vector3d &weights) const
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i)
+    sum += weights[i] * vertex_normals_.row(triangles_(triangle, i)).transpose().normalized();
+  return sum.stableNormalized();
 }
 
 NearestTriangle TriangleTree::nearest(const Eigen::Vector3d &point, double max_distance, const Points &positions,

@@ -27,8 +27,12 @@ public:
 
   const Triangles &triangles() const { return triangles_; }
 
-  /// Adopt the current positions. Cost O(n).
+  /// Adopt the current positions: boxes and vertex normals. Cost O(n).
   void refit(const Points &positions);
+
+  /// Unit normal at a point of a triangle, interpolated from area-weighted vertex normals, so that it is continuous
+  /// over the surface. Zero where the surface is degenerate.
+  Eigen::Vector3d normal(int triangle, const Eigen::Vector3d &weights) const;
 
   /// Nearest triangle, within max_distance (mm), that `is_compatible` (given the triangle's row) accepts; of equally
   /// near ones that with the lowest row. `positions` must be those of the last refit().
@@ -49,5 +53,6 @@ private:
   Triangles triangles_;
   std::vector<int> order_;
   std::vector<Node> nodes_;
+  Points vertex_normals_; ///< not normalised, one a node of the body
 };
 } // namespace pelvireg::registration

@@ -13,7 +13,7 @@ namespace pelvireg::registration
 class ConstraintSolver
 {
 public:
-  static constexpr double least_relative_compliance = 1e-9;
+  static constexpr double least_relative_compliance = 1e-10;
 
   /// Start a step with n rows: W = 0.
   void reset(int n_rows);
