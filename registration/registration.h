@@ -69,9 +69,9 @@ struct Options
   bool use_attachments = true;       ///< anatomical constraints chi and the bodies that only serve them
   double max_match_distance = 30;    ///< mm: a control point whose nearest compatible triangle is farther is refused
   double min_normal_agreement = 0.5; ///< least cosine between the contour's and the triangle's in-plane normal
-  /// mm/N, per sliding row. Rows carry about 1 N (5 N at most): 0.02 lets an outline lie off by about 0.02 mm, far below
-  /// the noise of an image, and keeps redundant or antagonist control points from tearing at each other. 0 demands
-  /// exactness and is safe only when control points are sparser than nodes.
+  /// mm/N, per sliding row. Rows carry about 1 N (5 N at most): 0.02 lets an outline lie off by about 0.02 mm, far
+  /// below the noise of an image, and keeps redundant or antagonist control points from tearing at each other. 0
+  /// demands exactness and is safe only when control points are sparser than nodes.
   double sliding_compliance = 0.02;
   double attachment_compliance = 0; ///< mm/N, per attachment row (added to Attachment::compliance)
   int max_sweeps = 500;

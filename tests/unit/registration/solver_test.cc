@@ -144,7 +144,8 @@ TEST(ConstraintSolver, SharesTheGapAmongAntagonistRows)
   solver.set_row(2, 0.3, 0);
   ASSERT_TRUE(solver.solve(1e-6, 50));
   EXPECT_TRUE(solver.multipliers().allFinite());
-  EXPECT_NEAR(solver.multipliers().sum(), 0.1, 1e-5); // round-off of 1e10 N; the motion is the mean of the three demands
+  EXPECT_NEAR(solver.multipliers().sum(), 0.1,
+              1e-5); // round-off of 1e10 N; the motion is the mean of the three demands
 }
 
 TEST(ConstraintSolver, ReportsASystemThatIsNotFinite)
