@@ -18,6 +18,8 @@ public:
   Axis(const std::string &owner, const std::vector<Eigen::Vector3d> &points, const std::vector<double> &fillet_radii);
 
   double length() const { return starts_.back(); }
+  /// Arc length at which the last straight piece starts, mm.
+  double last_straight_start() const { return starts_[starts_.size() - 2]; }
   Eigen::Vector3d point(double arc_length) const;
   Eigen::Vector3d tangent(double arc_length) const;
 

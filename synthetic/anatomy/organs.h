@@ -11,8 +11,8 @@ namespace pelvireg::anatomy
 {
 /// `size` mm: aimed edge length of the quadrilaterals. All surfaces are closed but for the rims of the tubes.
 std::vector<Chart> bladder_charts(const BladderShape &shape, double size);
-/// With the patch of the uterus marked.
-std::vector<Chart> vagina_charts(const VaginaShape &vagina, const UterusShape &uterus, double size);
+/// With the patch of the uterus marked. `aspect`: length over width of the cells.
+std::vector<Chart> vagina_charts(const VaginaShape &vagina, const UterusShape &uterus, double size, double aspect = 1);
 std::vector<Chart> uterus_charts(const UterusShape &uterus, const VaginaShape &vagina, double size);
 std::vector<Chart> rectum_charts(const RectumShape &shape, double size);
 /// The mid-surface, normals cranial.

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace pelvireg::anatomy
@@ -67,26 +68,27 @@ TriangleMesh floor_faces(const FloorShape &shape)
   return faces;
 }
 
-/// Signed distance of a point to a surface (negative inside), as far as it matters: at least `least_gap` stays as it
-/// is.
+/// Signed distance of a point to a surface, negative inside. Where several triangles share the nearest point (an edge),
+/// the one that faces the point most squarely knows the side.
 double signed_distance(const Vector3d &p, const OrganSurface &organ)
 {
-  double least = std::numeric_limits<double>::infinity(), sign = 1;
+  constexpr double tie = 1e-9; // mm
+  double least = std::numeric_limits<double>::infinity(), height = 0;
   for (std::size_t t = 0; t < organ.centres.size(); ++t)
   {
-    if ((p - organ.centres[t]).norm() - organ.radii[t] > least)
+    if ((p - organ.centres[t]).norm() - organ.radii[t] > least + tie)
       continue;
     const auto row = static_cast<Eigen::Index>(t);
     const Vector3d nearest =
         nearest_on_triangle(p, corner(organ, row, 0), corner(organ, row, 1), corner(organ, row, 2));
-    const double distance = (p - nearest).norm();
-    if (distance < least)
+    const double distance = (p - nearest).norm(), above = (p - nearest).dot(organ.normals[t]);
+    if (distance < least - tie || (distance < least + tie && std::abs(above) > std::abs(height)))
     {
       least = distance;
-      sign = (p - nearest).dot(organ.normals[t]) < 0 ? -1 : 1;
+      height = above;
     }
   }
-  return sign * least;
+  return height < 0 ? -least : least;
 }
 
 /// Is the point of the uterus or the vagina on the shared patch or so near its rim that the gap must be small?
@@ -113,10 +115,29 @@ void check_pair(const OrganSurface &a, const OrganSurface &b, const CervixPatch 
                       a.name, b.name, gap < 0 ? "overlap" : "come too close", p[0], p[1], p[2], gap, least_gap));
   }
 }
+
+void check_patch(const Parameters &p)
+{
+  const CervixPatch patch = cervix_patch(p.uterus, p.vagina);
+  const Axis axis("vagina", p.vagina.axis, p.vagina.fillet_radii);
+  const double half_length = patch.radius / patch.axis.dot(patch.normal), end = p.vagina.half_depth;
+  const double straight = axis.length() - axis.last_straight_start();
+  if (!(p.uterus.patch_distance - half_length >= end && p.uterus.patch_distance + half_length <= straight))
+    throw InputError(
+        fmt::format("uterus.patch_distance is {} mm, but the patch of the cervix ({:.1f} mm either way) must lie "
+                    "on the straight part of the vagina, {} to {:.1f} mm from its apex; move or shrink it.",
+                    p.uterus.patch_distance, half_length, end, straight));
+  if (!(patch.radius <= p.vagina.widths.back() / 2 - p.vagina.half_depth))
+    throw InputError(
+        fmt::format("uterus.half_widths[0] is {} mm, but the flat of the vagina's wall allows at most {} mm; "
+                    "narrow the cervix or widen the vagina.",
+                    patch.radius, p.vagina.widths.back() / 2 - p.vagina.half_depth));
+}
 } // namespace
 
 void check_separation(const Parameters &p)
 {
+  check_patch(p);
   const std::vector<OrganSurface> organs = {
       organ_surface("bladder", triangle_mesh(bladder_charts(p.bladder, mesh_size))),
       organ_surface("vagina", triangle_mesh(vagina_charts(p.vagina, p.uterus, mesh_size))),

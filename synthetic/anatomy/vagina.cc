@@ -17,26 +17,36 @@ using std::numbers::pi;
 namespace
 {
 /// A place around the tube: `ribbon` in [-1, 1] across the ribbon, `angle` of the section's normal (0: left, pi/2:
-/// posterior), and the local angle on the face of the cube that closes the apex.
+/// posterior).
 struct Around
 {
   double ribbon, angle;
 };
 
-/// Faces 0 left, 1 posterior, 2 right, 3 anterior; `a` by arc length of the reference section.
-Around around(int face, double a, double half_depth, double half_flat)
+/// Cells around one face of the tube and along it. Cells end where the section turns from flat to round and where the
+/// axis turns from bent to straight, so that the patch of the cervix lies on whole plane cells.
+struct Counts
 {
-  const double side = face % 2 == 0 ? 1 : -1;
+  int depth;     ///< 90 degrees of the round sides
+  int arc, flat; ///< 45 degrees and the flat of the anterior and posterior faces
+  int bent, straight, cap;
+
+  int across() const { return 2 * arc + flat; }
+  int along() const { return bent + straight + cap; }
+};
+
+/// Faces 0 left, 1 posterior, 2 right, 3 anterior.
+Around around(int face, double a, const Counts &counts)
+{
   if (face % 2 == 0)
     return {face == 0 ? 1.0 : -1.0, face * pi / 2 + (a - 0.5) * pi / 2};
-  const double arc = half_depth * pi / 4, total = 2 * (arc + half_flat), s = a * total;
   const double sign = face == 1 ? 1 : -1; // posterior runs from left to right, anterior back
-  if (s < arc)
-    return {sign, face * pi / 2 - pi / 4 + s / half_depth};
-  if (s > arc + 2 * half_flat)
-    return {-sign, face * pi / 2 + (s - arc - 2 * half_flat) / half_depth};
-  (void)side;
-  return {sign * (1 - (s - arc) / half_flat), face * pi / 2};
+  const double column = a * counts.across();
+  if (column < counts.arc)
+    return {sign, face * pi / 2 - (1 - column / counts.arc) * pi / 4};
+  if (column > counts.arc + counts.flat)
+    return {-sign, face * pi / 2 + (column - counts.arc - counts.flat) / counts.arc * pi / 4};
+  return {sign * (1 - 2 * (column - counts.arc) / counts.flat), face * pi / 2};
 }
 
 class VaginaSurface
@@ -51,8 +61,28 @@ public:
 
   double end() const { return end_; } ///< arc length at which the rounded apex starts
   double depth() const { return depth_; }
-  double reference_flat() const { return reference_flat_; }
-  double cap_length() const { return depth_ * pi / 4; } ///< of a side face, up to the edge of the top face
+  Counts counts(double size, double aspect) const
+  {
+    Counts n;
+    n.depth = count(depth_ * pi / 2, size);
+    n.arc = count(depth_ * pi / 4, size);
+    n.flat = count(2 * reference_flat_, size, 2);
+    n.bent = count(axis_.last_straight_start(), size * aspect);
+    n.straight = count(end_ - axis_.last_straight_start(), size * aspect, 2);
+    n.cap = count(depth_ * pi / 4, size);
+    return n;
+  }
+
+  /// Of a side face: arc length at `b` in [0, 1]; beyond end() it goes on up the rounded apex to the top face.
+  double arc_length(double b, const Counts &n) const
+  {
+    const double row = b * n.along(), start = axis_.last_straight_start();
+    if (row <= n.bent)
+      return row / n.bent * start;
+    if (row <= n.bent + n.straight)
+      return start + (row - n.bent) / n.straight * (end_ - start);
+    return end_ + (row - n.bent - n.straight) / n.cap * depth_ * pi / 4;
+  }
 
   /// Tube at arc length t.
   SurfacePoint tube(double t, const Around &at) const
@@ -103,16 +133,15 @@ private:
 };
 
 /// One of the four sides, from the introitus up to the edge of the top face.
-Chart side_chart(const VaginaSurface &surface, int face, int n_around, int n_along)
+Chart side_chart(const VaginaSurface &surface, int face, const Counts &counts)
 {
   Chart chart;
-  chart.n_a = n_around;
-  chart.n_b = n_along;
-  const double total = surface.end() + surface.cap_length();
+  chart.n_a = face % 2 == 0 ? counts.depth : counts.across();
+  chart.n_b = counts.along();
   chart.evaluate = [=](double a, double b)
   {
-    const Around at = around(face, a, surface.depth(), surface.reference_flat());
-    const double t = b * total;
+    const Around at = around(face, a, counts);
+    const double t = surface.arc_length(b, counts);
     if (t <= surface.end())
       return surface.tube(t, at);
     const double local = at.angle - face * pi / 2, elevation = (t - surface.end()) / surface.depth();
@@ -122,30 +151,28 @@ Chart side_chart(const VaginaSurface &surface, int face, int n_around, int n_alo
   return chart;
 }
 
-Chart top_chart(const VaginaSurface &surface, int n_across, int n_depth)
+Chart top_chart(const VaginaSurface &surface, const Counts &counts)
 {
   Chart chart;
-  chart.n_a = n_across;
-  chart.n_b = n_depth;
+  chart.n_a = counts.across();
+  chart.n_b = counts.depth;
   chart.evaluate = [=](double a, double b)
   {
-    const Around at = around(1, a, surface.depth(), surface.reference_flat());
+    const Around at = around(1, a, counts);
     return surface.apex({-std::tan(at.angle - pi / 2), std::tan((b - 0.5) * pi / 2), 1}, at.ribbon);
   };
   return chart;
 }
 } // namespace
 
-std::vector<Chart> vagina_charts(const VaginaShape &vagina, const UterusShape &uterus, double size)
+std::vector<Chart> vagina_charts(const VaginaShape &vagina, const UterusShape &uterus, double size, double aspect)
 {
   const VaginaSurface surface(vagina);
-  const int n_depth = count(surface.depth() * pi / 2, size),
-            n_along = count(surface.end() + surface.cap_length(), size, 2);
-  const int n_across = count(2 * surface.reference_flat() + surface.depth() * pi / 2, size, 2);
+  const Counts counts = surface.counts(size, aspect);
   std::vector<Chart> charts;
   for (int face = 0; face < 4; ++face)
-    charts.push_back(side_chart(surface, face, face % 2 == 0 ? n_depth : n_across, n_along));
-  charts.push_back(top_chart(surface, n_across, n_depth));
+    charts.push_back(side_chart(surface, face, counts));
+  charts.push_back(top_chart(surface, counts));
   const CervixPatch patch = cervix_patch(uterus, vagina);
   for (Chart &chart : charts)
     chart.region = [patch](const SurfacePoint &p)

@@ -218,6 +218,26 @@ Gap gap_between(const SurfaceMesh &a, const SurfaceMesh &b, double rim_margin)
   return gap;
 }
 
+double distance_to(const Vector3d &point, const SurfaceMesh &surface)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const Triangle &t : triangles_of(surface))
+  {
+    if (t.box.exteriorDistance(point) >= least)
+      continue;
+    least = std::min(least, face_distance(point, t));
+    for (int k = 0; k < 3; ++k)
+      least = std::min(least, segment_distance(t.p[k], t.p[(k + 1) % 3], point, point + Vector3d(1e-12, 0, 0)));
+  }
+  return least;
+}
+
+bool segment_meets(const Vector3d &a, const Vector3d &b, const SurfaceMesh &surface)
+{
+  const std::vector<Triangle> triangles = triangles_of(surface);
+  return std::any_of(triangles.begin(), triangles.end(), [&](const Triangle &t) { return edge_crosses(a, b, t); });
+}
+
 double enclosed_volume(const SurfaceMesh &surface)
 {
   double volume = 0;

@@ -27,6 +27,11 @@ struct Gap
 /// of triangles near the patch's rim (both with a point within `rim_margin` of a patch triangle), are left out.
 Gap gap_between(const dataset::SurfaceMesh &a, const dataset::SurfaceMesh &b, double rim_margin = 0);
 
+/// Distance of a point to a triangulated surface, all regions.
+double distance_to(const Eigen::Vector3d &point, const dataset::SurfaceMesh &surface);
+/// Does the segment from a to b cross the surface?
+bool segment_meets(const Eigen::Vector3d &a, const Eigen::Vector3d &b, const dataset::SurfaceMesh &surface);
+
 /// Volume enclosed by a closed outward surface, mm^3.
 double enclosed_volume(const dataset::SurfaceMesh &surface);
 } // namespace pelvireg::test

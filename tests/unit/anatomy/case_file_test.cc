@@ -1,0 +1,132 @@
+// Bad case files: one sentence that names the key, the value, what is allowed and the remedy.
+#include "synthetic/anatomy/case.h"
+#include "synthetic/dataset/error.h"
+
+#include <gtest/gtest.h>
+
+namespace pelvireg::test
+{
+namespace
+{
+/// The quick case with one piece of text replaced.
+std::string altered(const std::string &from, const std::string &to)
+{
+  std::string text = anatomy::case_text("quick");
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string complaint(const std::string &text)
+{
+  try
+  {
+    anatomy::build_anatomy(text, "bad");
+  }
+  catch (const InputError &error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_complaint(const std::string &text, const std::vector<std::string> &pieces)
+{
+  const std::string message = complaint(text);
+  for (const std::string &piece : pieces)
+    EXPECT_NE(message.find(piece), std::string::npos) << "'" << piece << "' is not in: " << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+TEST(CaseFile, RefusesNegativeThickness)
+{
+  expect_complaint(altered("wall = 3.5", "wall = -3.5"), {"vagina.wall", "-3.5", "> 0"});
+}
+
+TEST(CaseFile, RefusesZeroThickness)
+{
+  expect_complaint(altered("wall = 3.5", "wall = 0"), {"vagina.wall", "is 0", "> 0"});
+}
+
+TEST(CaseFile, RefusesZeroModulus)
+{
+  expect_complaint(altered("uterus = 0.60", "uterus = 0.0"), {"registration.youngs_modulus.uterus", "is 0", "> 0"});
+}
+
+TEST(CaseFile, RefusesNotANumber)
+{
+  expect_complaint(altered("tilt = 3.0", "tilt = nan"), {"plane.tilt", "nan", "-30"});
+}
+
+TEST(CaseFile, RefusesAnUnknownKeyAndListsTheKnownOnes)
+{
+  expect_complaint(altered("tilt = 3.0", "tilt = 3.0\ntild = 1"), {"plane.tild", "not a known key", "tilt", "remove"});
+}
+
+TEST(CaseFile, RefusesAMissingKey)
+{
+  expect_complaint(altered("tilt = 3.0", ""), {"plane.tilt", "missing"});
+}
+
+TEST(CaseFile, RefusesAWrongType)
+{
+  expect_complaint(altered("tilt = 3.0", "tilt = \"three\""), {"plane.tilt", "a string", "number"});
+  expect_complaint(altered("n_increments = 15", "n_increments = 1.5"), {"load.n_increments", "1.5", "integer"});
+  expect_complaint(altered("far_point = [0.0, 5.0, -6.0]", "far_point = [0.0, 5.0]"),
+                   {"urethra.far_point", "3 numbers", "array of 2"});
+}
+
+TEST(CaseFile, RefusesAWallThatFolds)
+{
+  expect_complaint(altered("wall = 3.5", "wall = 5.3"), {"vagina.wall", "5.3", "0.8", "thinner"});
+}
+
+TEST(CaseFile, AcceptsAWallUpToTheBorder)
+{
+  EXPECT_EQ(complaint(altered("wall = 3.5", "wall = 5.19")), "");
+}
+
+TEST(CaseFile, RefusesAnUndefinedMaterial)
+{
+  expect_complaint(altered("urethra = \"bladder\"", "urethra = \"rubber\""),
+                   {"reference.material_of.urethra", "rubber"});
+}
+
+TEST(CaseFile, RefusesOrgansThatOverlap)
+{
+  expect_complaint(altered("fundus = [0.0, 5.0, 101.0]", "fundus = [0.0, -15.0, 88.0]"),
+                   {"bladder", "uterus", "gap", "move them apart"});
+}
+
+TEST(CaseFile, RefusesNodeCountsThatNoMeshHas)
+{
+  expect_complaint(altered("bladder = 196", "bladder = 122"), {"registration.nodes.bladder", "122", "nearest"});
+}
+
+TEST(CaseFile, RefusesBrokenTomlWithItsLine)
+{
+  expect_complaint("name = \"x\"\nthis is not toml\n", {"line 2"});
+}
+
+TEST(CaseFile, RefusesAnUnknownNameAndListsTheBuiltInOnes)
+{
+  try
+  {
+    anatomy::case_text("t006");
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("t005, quick"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(anatomy::case_text("/nowhere/at/all.toml"), InputError);
+}
+
+TEST(CaseFile, ListsTheBuiltInCases)
+{
+  ASSERT_EQ(anatomy::built_in_cases().size(), 2u);
+  EXPECT_EQ(anatomy::built_in_cases()[0].name, "t005");
+  EXPECT_EQ(anatomy::built_in_cases()[1].name, "quick");
+}
+} // namespace
+} // namespace pelvireg::test

@@ -1,0 +1,230 @@
+// Ligaments, fasciae, urethra, membrane of the hiatus; tables of the paper; repeatability.
+#include "tests/unit/anatomy/cases.h"
+#include "tests/unit/anatomy/surfaces.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <set>
+
+namespace pelvireg::test
+{
+namespace
+{
+using Eigen::Vector3d;
+
+INSTANTIATE_TEST_SUITE_P(Anatomy, EveryCase, testing::Values("t005", "quick"),
+                         [](const auto &instance) { return instance.param; });
+
+const std::vector<std::string> supports = {"cardinal",    "uterosacral",   "round",
+                                           "paravaginal", "fascia_pelvis", "fascia_sacrum"};
+
+double total_area(const dataset::Anatomy &anatomy, const std::string &group)
+{
+  double area = 0;
+  for (const dataset::ReferenceTruss &bar : anatomy.reference.trusses)
+    area += bar.group == group ? bar.area : 0;
+  return area;
+}
+
+Vector3d start_of(const dataset::Anatomy &anatomy, const dataset::ReferenceTruss &bar)
+{
+  return bar.part_a == "uterus" ? anatomy.reference.solids[0].points.row(bar.node_a).transpose()
+                                : shell_of(anatomy, bar.part_a).midsurface.row(bar.node_a).transpose();
+}
+
+TEST_P(EveryCase, SpreadsAtLeastEightBarsOverDistinctNodesOfEverySupport)
+{
+  for (const std::string &support : supports)
+    for (const std::string side : {"_left", "_right"})
+    {
+      std::set<std::int32_t> nodes;
+      int n = 0;
+      for (const dataset::ReferenceTruss &bar : anatomy().reference.trusses)
+        if (bar.group == support + side)
+        {
+          nodes.insert(bar.node_a);
+          ++n;
+        }
+      EXPECT_GE(n, 8) << support << side;
+      EXPECT_EQ(nodes.size(), static_cast<std::size_t>(n)) << support << side << ": two bars on one node";
+    }
+}
+
+TEST_P(EveryCase, HasLigamentSectionsOfTheNotesWithSidesTwentyFivePercentApart)
+{
+  // From stiffness and length: k = E A / L (anatomy notes 2.4).
+  for (const auto &[support, area] : {std::pair{"cardinal", 19.5}, {"uterosacral", 14.3}, {"round", 4.0}})
+  {
+    const double left = total_area(anatomy(), std::string(support) + "_left"),
+                 right = total_area(anatomy(), std::string(support) + "_right");
+    EXPECT_NEAR((left + right) / 2, area, 0.01 * area) << support;
+    EXPECT_NEAR(std::abs(left - right) / (left + right), 0.25, 0.005) << support;
+  }
+}
+
+TEST_P(EveryCase, GivesBandsTheSectionOfTheBars)
+{
+  // Mean section of a band half-way: its volume over its length.
+  for (const dataset::RegistrationAttachment &attachment : anatomy().registration.attachments)
+  {
+    if (attachment.kind == "organ")
+      continue;
+    const dataset::RegistrationBody &body = body_of(anatomy(), attachment.body_a);
+    // The band of an attachment: the hexahedra connected to its nodes.
+    std::set<std::int32_t> nodes(attachment.nodes_a.begin(), attachment.nodes_a.end());
+    for (bool grows = true; grows;)
+    {
+      grows = false;
+      for (Eigen::Index h = 0; h < body.hexes.rows(); ++h)
+        if (std::any_of(body.hexes.row(h).begin(), body.hexes.row(h).end(), [&](int n) { return nodes.count(n) > 0; }))
+          for (const int n : body.hexes.row(h))
+            grows |= nodes.insert(n).second;
+    }
+    std::set<std::int32_t> far;
+    for (const std::int32_t n : body.fixed_nodes)
+      if (nodes.count(n) > 0)
+        far.insert(n);
+    ASSERT_EQ(far.size(), static_cast<std::size_t>(attachment.nodes_a.size()))
+        << attachment.name << ": both ends are one grid layer";
+    // Section at the far end, projected on the band's direction.
+    Vector3d direction = Vector3d::Zero(), section = Vector3d::Zero();
+    for (const std::int32_t n : far)
+      direction += body.points.row(n).transpose();
+    for (const std::int32_t n : attachment.nodes_a)
+      direction -= body.points.row(n).transpose();
+    static const int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+    for (Eigen::Index h = 0; h < body.hexes.rows(); ++h)
+      for (const auto &face : faces)
+        if (std::all_of(face, face + 4, [&](int k) { return far.count(body.hexes(h, k)) > 0; }))
+        {
+          const Vector3d a =
+              (body.points.row(body.hexes(h, face[2])) - body.points.row(body.hexes(h, face[0]))).transpose();
+          const Vector3d b =
+              (body.points.row(body.hexes(h, face[3])) - body.points.row(body.hexes(h, face[1]))).transpose();
+          section += a.cross(b) / 2;
+        }
+    const double bars = total_area(anatomy(), attachment.name);
+    // The far patch may be cut obliquely: its own area is the bars' to round-off, its projection somewhat less.
+    EXPECT_NEAR(section.dot(direction.normalized()) / bars, 1, 0.15) << attachment.name;
+  }
+}
+
+TEST_P(EveryCase, HoldsBandsOnTheOrgansOuterSurface)
+{
+  for (const dataset::RegistrationAttachment &attachment : anatomy().registration.attachments)
+  {
+    const dataset::RegistrationBody &a = body_of(anatomy(), attachment.body_a),
+                                    &b = body_of(anatomy(), attachment.body_b);
+    ASSERT_GT(attachment.nodes_a.size(), 3) << attachment.name;
+    const dataset::SurfaceMesh organ = {b.points, b.outer_triangles, dataset::Integers::Zero(b.outer_triangles.rows())};
+    for (const std::int32_t node : attachment.nodes_a)
+    {
+      EXPECT_LT(distance_to(a.points.row(node).transpose(), organ), 1e-6) << attachment.name << " node " << node;
+    }
+  }
+}
+
+TEST_P(EveryCase, FixesTheFarEndsOfGridsAndTheBonyEdgesOnly)
+{
+  for (const dataset::RegistrationBody &body : anatomy().registration.bodies)
+    EXPECT_EQ(body.fixed_nodes.size() > 0, body.hexes.rows() > 0) << body.name;
+  for (const dataset::ReferenceShell &shell : anatomy().reference.shells)
+  {
+    std::set<std::int32_t> rim;
+    for (const dataset::Integers &loop : shell.rims)
+    {
+      EXPECT_EQ(loop.size() % 2, 0);
+      rim.insert(loop.begin(), loop.end());
+    }
+    const std::set<std::int32_t> fixed(shell.fixed_nodes.begin(), shell.fixed_nodes.end());
+    if (shell.name == "pelvic_floor")
+    {
+      EXPECT_FALSE(fixed.empty());
+      EXPECT_FALSE(shell.has_cavity);
+      for (const dataset::ReferenceTruss &bar : anatomy().reference.trusses)
+        if (bar.group == "hiatus")
+        {
+          EXPECT_EQ(fixed.count(bar.node_a), 0u) << "a membrane bar on the bony edge";
+        }
+      continue;
+    }
+    EXPECT_EQ(fixed, rim) << shell.name;
+    EXPECT_TRUE(shell.has_cavity);
+  }
+}
+
+TEST_P(EveryCase, KeepsBarsOutOfOtherOrgans)
+{
+  const auto surfaces = reference_surfaces(anatomy().reference);
+  for (const dataset::ReferenceTruss &bar : anatomy().reference.trusses)
+  {
+    if (bar.group == "hiatus") // they cross the floor's own rim
+      continue;
+    const Vector3d a = start_of(anatomy(), bar), b = bar.fixed_point;
+    for (const auto &[name, surface] : surfaces)
+      if (name != bar.part_a && name != "pelvic_floor") // bars end on the pelvic wall, where the floor is fixed too
+      {
+        EXPECT_FALSE(segment_meets(a, b, surface)) << bar.group << " passes through the " << name << " near x " << a[0];
+      }
+  }
+}
+
+TEST_P(EveryCase, IsNotMirrorSymmetric)
+{
+  const dataset::Points &uterus = anatomy().reference.solids[0].points;
+  double sum = 0;
+  int n = 0;
+  for (Eigen::Index i = 0; i < uterus.rows(); ++i)
+    if (uterus(i, 2) > 85) // the fundus
+    {
+      sum += uterus(i, 0);
+      ++n;
+    }
+  EXPECT_NEAR(sum / n, 9.5, 2) << "8 degrees to the left over about 68 mm";
+  EXPECT_NEAR(anatomy().dyn_plane.normal.norm(), 1, 1e-15);
+  EXPECT_NEAR(anatomy().dyn_plane.normal[0], std::cos(3 * std::numbers::pi / 180), 1e-12);
+  EXPECT_NEAR(anatomy().dyn_plane.origin[0], 3, 1e-12);
+}
+
+TEST(Anatomy, HasTheNodeCountsAndModuliOfTableOneForT005)
+{
+  const std::map<std::string, std::pair<int, double>> table = {
+      {"vagina", {928, .66}},        {"uterus", {740, .6}},         {"bladder", {806, .24}},  {"rectum", {894, .54}},
+      {"fascia_pelvis", {170, .03}}, {"fascia_sacrum", {288, .03}}, {"ligaments", {199, .78}}};
+  ASSERT_EQ(generated("t005").registration.bodies.size(), table.size());
+  for (const dataset::RegistrationBody &body : generated("t005").registration.bodies)
+  {
+    const auto &[count, modulus] = table.at(body.name);
+    EXPECT_NEAR(static_cast<double>(body.points.rows()) / count, 1, 0.05) << body.name;
+    EXPECT_EQ(body.youngs_modulus, modulus) << body.name;
+    EXPECT_EQ(body.poisson_ratio, 0.45);
+    std::set<std::int32_t> used(body.tets.data(), body.tets.data() + body.tets.size());
+    used.insert(body.hexes.data(), body.hexes.data() + body.hexes.size());
+    EXPECT_EQ(used.size(), static_cast<std::size_t>(body.points.rows())) << body.name << " has loose nodes";
+  }
+}
+
+TEST_P(EveryCase, IsTheSameForTheSameText)
+{
+  const dataset::Anatomy &first = anatomy();
+  const dataset::Anatomy second = anatomy::build_anatomy(anatomy::case_text(GetParam()), GetParam());
+  for (std::size_t i = 0; i < first.registration.bodies.size(); ++i)
+  {
+    const dataset::RegistrationBody &a = first.registration.bodies[i], &b = second.registration.bodies[i];
+    EXPECT_TRUE(a.points == b.points && a.tets == b.tets && a.hexes == b.hexes &&
+                a.outer_triangles == b.outer_triangles)
+        << a.name;
+  }
+  for (std::size_t i = 0; i < first.reference.shells.size(); ++i)
+    EXPECT_TRUE(first.reference.shells[i].midsurface == second.reference.shells[i].midsurface &&
+                first.reference.shells[i].directors == second.reference.shells[i].directors);
+  EXPECT_TRUE(first.reference.solids[0].points == second.reference.solids[0].points);
+  EXPECT_TRUE(first.reference.solids[0].cells == second.reference.solids[0].cells);
+  for (std::size_t i = 0; i < first.reference.trusses.size(); ++i)
+    EXPECT_EQ(first.reference.trusses[i].node_a, second.reference.trusses[i].node_a);
+}
+} // namespace
+} // namespace pelvireg::test
