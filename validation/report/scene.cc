@@ -36,7 +36,8 @@ namespace pelvireg::report
 {
 namespace
 {
-constexpr int width = 1200, height = 900;
+constexpr int width = 1000, height = 750;
+constexpr int font_size = 20;
 
 /// Viridis: even in lightness, readable in grey and for the colour-blind.
 vtkSmartPointer<vtkColorTransferFunction> viridis(double maximum)
@@ -83,7 +84,7 @@ Scene::Scene()
 {
   renderer_->SetBackground(1, 1, 1);
   renderer_->SetUseDepthPeeling(1);
-  renderer_->SetMaximumNumberOfPeels(6);
+  renderer_->SetMaximumNumberOfPeels(4);
   renderer_->SetOcclusionRatio(0.0);
   vtkNew<vtkLightKit> lights;
   lights->SetKeyLightIntensity(0.8);
@@ -130,7 +131,7 @@ void Scene::add_scale(const std::string &title, double maximum)
   for (vtkTextProperty *text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()})
   {
     text->SetColor(0.1, 0.1, 0.1);
-    text->SetFontSize(24);
+    text->SetFontSize(font_size);
     text->ShadowOff();
     text->ItalicOff();
     text->BoldOff();
@@ -264,11 +265,11 @@ void Scene::add_legend(const std::vector<std::pair<std::string, Colour>> &entrie
     vtkNew<vtkTextActor> text;
     text->SetInput(name.c_str());
     text->SetPosition(x, 18);
-    text->GetTextProperty()->SetFontSize(24);
+    text->GetTextProperty()->SetFontSize(font_size);
     text->GetTextProperty()->BoldOn();
     text->GetTextProperty()->SetColor(0.8 * colour[0], 0.8 * colour[1], 0.8 * colour[2]);
     renderer_->AddActor2D(text);
-    x += 13.5 * static_cast<double>(name.size()) + 34; // mean width of a letter of this font
+    x += 0.56 * font_size * static_cast<double>(name.size()) + 28; // mean width of a letter of this font
   }
   has_legend_ = true;
 }
@@ -312,7 +313,7 @@ void Scene::save(const std::filesystem::path &file, View view, const std::vector
   image->ReadFrontBufferOff();
   vtkNew<vtkPNGWriter> writer;
   writer->SetFileName(file.c_str());
-  writer->SetCompressionLevel(9);
+  writer->SetCompressionLevel(6);
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
   if (writer->GetErrorCode() != 0 || !std::filesystem::exists(file))
