@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pelvireg::reference_fe
@@ -26,21 +27,32 @@ std::string likely_cause(NewtonStatus status)
 } // namespace
 
 LoadStepper::LoadStepper(PelvisModel &model, const LoadStepperOptions &options)
-    : model_(model), options_(options), step_(options.first_step)
+    : model_(model), options_(options), motion_(options.motion)
 {
   current_.solution = Eigen::VectorXd::Zero(model.system.n_unknowns());
   previous_ = current_;
 }
 
-void LoadStepper::start()
+StepEffort LoadStepper::start(double target)
 {
   StepEffort effort;
-  Eigen::VectorXd trial = current_.solution;
   model_.probe->prescribe_pressure(options_.start_pressure);
-  if (!solve(trial, effort))
-    throw ComputationError(fmt::format("the reference did not converge under the first pressure of {} MPa: {}",
-                                       options_.start_pressure, last_result_.message));
-  accept(std::move(trial));
+  while (!try_step(0, effort))
+  {
+    cut(effort);
+    model_.probe->prescribe_pressure(options_.start_pressure * motion_ / options_.motion);
+  }
+  while (current_.displacement < options_.start_displacement * target)
+  {
+    const double motion = motion_between(previous_.solution, current_.solution);
+    const double displacement = current_.displacement - previous_.displacement;
+    // Not past the first displacement wanted, nor more than a fivefold pressure at once.
+    const double ratio = std::min({motion_ / motion, 4., 2 * options_.start_displacement * target / displacement});
+    model_.probe->prescribe_pressure(current_.pressure + ratio * (current_.pressure - previous_.pressure));
+    if (!try_step(ratio, effort))
+      cut(effort);
+  }
+  return effort;
 }
 
 StepEffort LoadStepper::advance_to(double target)
@@ -48,31 +60,52 @@ StepEffort LoadStepper::advance_to(double target)
   StepEffort effort;
   while (current_.displacement < target)
   {
-    // A last sub-step that would leave a sliver is taken whole.
-    const double left = target - current_.displacement;
-    const double next = left <= 1.1 * step_ ? target : current_.displacement + step_;
-    Eigen::VectorXd trial = predict(next);
-    model_.probe->prescribe_displacement(next);
-    const int iterations_before = effort.newton_iterations;
-    if (solve(trial, effort))
-    {
-      accept(std::move(trial));
-      if (effort.newton_iterations - iterations_before <= 12)
-        step_ *= 1.5;
-      if (next == target)
-        break;
-      continue;
-    }
-    model_.system.end_step(false);
-    ++effort.cuts;
-    step_ = 0.4 * std::min(step_, left);
-    if (step_ < options_.least_step)
-      throw ComputationError(fmt::format(
-          "the reference did not converge at a mean vaginal displacement of {:.3f} mm with steps down to {:.4f} mm: {} "
-          "(likely cause: {})",
-          next, options_.least_step, last_result_.message, likely_cause(last_result_.status)));
+    const double last = current_.displacement - previous_.displacement;
+    const double left = (target - current_.displacement) / last;
+    const double possible = motion_ / motion_between(previous_.solution, current_.solution);
+    // What is left is taken in equal parts.
+    const double ratio = left / std::ceil(left / possible - 0.1);
+    const bool is_last = ratio == left;
+    model_.probe->prescribe_displacement(is_last ? target : current_.displacement + ratio * last);
+    if (!try_step(ratio, effort))
+      cut(effort);
+    else if (is_last)
+      break;
   }
   return effort;
+}
+
+bool LoadStepper::try_step(double ratio, StepEffort &effort)
+{
+  Eigen::VectorXd trial = current_.solution + ratio * (current_.solution - previous_.solution);
+  const int iterations_before = effort.newton_iterations;
+  const bool is_solved = solve(trial, effort);
+  const double motion = motion_between(current_.solution, trial);
+  if (options_.log)
+    options_.log(fmt::format("  {} displacement {:.4f} mm, pressure {:.6f} MPa, motion {:.3f} mm, {} iterations, "
+                             "residual {:.1e} N {}",
+                             is_solved ? "step to" : "failed at", model_.probe->mean_displacement(trial),
+                             trial[model_.pressure_unknown], motion, effort.newton_iterations - iterations_before,
+                             last_result_.residual, last_result_.message));
+  if (!is_solved || !(motion <= options_.largest_motion))
+    return false;
+  accept(std::move(trial));
+  if (effort.newton_iterations - iterations_before <= 12)
+    motion_ = std::min(1.5 * motion_, options_.motion);
+  return true;
+}
+
+void LoadStepper::cut(StepEffort &effort)
+{
+  model_.system.end_step(false);
+  ++effort.cuts;
+  motion_ *= 0.4;
+  if (motion_ < options_.least_motion)
+    throw ComputationError(
+        fmt::format("the reference did not converge beyond a mean vaginal displacement of {:.3f} mm with steps down to "
+                    "{} mm of motion: residual {:.2e} N, {} (likely cause: {})",
+                    current_.displacement, options_.least_motion, last_result_.residual, last_result_.message,
+                    likely_cause(last_result_.status)));
 }
 
 bool LoadStepper::solve(Eigen::VectorXd &trial, StepEffort &effort)
@@ -80,7 +113,6 @@ bool LoadStepper::solve(Eigen::VectorXd &trial, StepEffort &effort)
   NewtonOptions newton;
   newton.residual_tolerance = options_.residual_tolerance;
   newton.max_iterations = options_.max_iterations;
-  newton.log = options_.log;
   if (model_.contact)
     model_.contact->search(current_.solution);
   for (int search = 0;; ++search)
@@ -88,10 +120,6 @@ bool LoadStepper::solve(Eigen::VectorXd &trial, StepEffort &effort)
     last_result_ = solve_newton(model_.system, trial, newton);
     effort.newton_iterations += static_cast<int>(last_result_.iterations.size());
     effort.residual = last_result_.residual;
-    if (options_.log)
-      options_.log(fmt::format("  displacement {:.4f} mm, pressure {:.6f} MPa, {} iterations, residual {:.2e} N {}",
-                               model_.probe->mean_displacement(trial), trial[model_.pressure_unknown],
-                               last_result_.iterations.size(), last_result_.residual, last_result_.message));
     if (!last_result_.converged())
       return false;
     if (!model_.contact || search == options_.max_contact_searches || !model_.contact->search(trial))
@@ -104,12 +132,16 @@ void LoadStepper::accept(Eigen::VectorXd trial)
   model_.system.end_step(true);
   previous_ = std::move(current_);
   current_.displacement = model_.probe->mean_displacement(trial);
+  current_.pressure = trial[model_.pressure_unknown];
   current_.solution = std::move(trial);
 }
 
-Eigen::VectorXd LoadStepper::predict(double target) const
+double LoadStepper::motion_between(const Eigen::VectorXd &from, const Eigen::VectorXd &to) const
 {
-  const double ratio = (target - current_.displacement) / (current_.displacement - previous_.displacement);
-  return current_.solution + ratio * (current_.solution - previous_.solution);
+  double largest = 0;
+  for (const OuterSurface &surface : model_.surfaces)
+    for (const SurfaceNode &vertex : surface.vertices)
+      largest = std::max(largest, (vertex.position(to) - vertex.position(from)).norm());
+  return largest;
 }
 } // namespace pelvireg::reference_fe

@@ -11,12 +11,14 @@ namespace pelvireg::reference_fe
 {
 struct LoadStepperOptions
 {
-  double residual_tolerance = 1e-6;                  ///< N, largest scaled free residual of a converged state
-  double start_pressure = 5e-5;                      ///< MPa, prescribed before the displacement takes over
-  double first_step = 0.2;                           ///< mm, first displacement step
-  double least_step = 0.005;                         ///< mm, below it the stepper gives up
-  int max_iterations = 15;                           ///< of Newton's method, a solution
-  int max_contact_searches = 6;                      ///< repetitions of a step until the pairs in contact settle
+  double residual_tolerance = 1e-6; ///< N, largest scaled free residual of a converged state
+  double start_pressure = 2e-6;     ///< MPa, first prescribed pressure
+  double start_displacement = 0.02; ///< fraction of the target from which on the displacement is prescribed
+  double motion = 1.0;              ///< mm, largest motion of a surface point that a step aims at
+  double largest_motion = 2.0;      ///< mm, a step that moved any surface point farther is thrown away and cut
+  double least_motion = 1e-3;       ///< mm, steps that aim at less: the stepper gives up
+  int max_iterations = 15;          ///< of Newton's method, a solution
+  int max_contact_searches = 6;     ///< repetitions of a step until the pairs in contact settle
   std::function<void(const std::string &)> log = {}; ///< one line a step; may be empty
 };
 
@@ -28,16 +30,18 @@ struct StepEffort
   int cuts = 0;
 };
 
-/// Displacement control with an unknown load factor: each step prescribes the mean vaginal in-plane displacement and
-/// finds positions, cavity pressures and the abdominal pressure together.
+/// Quasi-static path with an unknown load factor: each step prescribes the mean vaginal in-plane displacement and finds
+/// positions, cavity pressures and the abdominal pressure together. At rest that displacement has no derivative, and
+/// organs that hang loosely settle before the vagina moves: the path begins with prescribed pressures.
+/// Steps are as long as lets no surface point move farther than contact can follow.
 class LoadStepper
 {
 public:
   LoadStepper(PelvisModel &model, const LoadStepperOptions &options);
 
-  /// Leave the rest state under a small prescribed pressure: the displacement has no derivative at rest.
-  /// Throws ComputationError when that fails.
-  void start();
+  /// Leave the rest state by prescribed pressures until the mean displacement reaches start_displacement of `target`
+  /// (mm). Throws ComputationError as advance_to().
+  StepEffort start(double target);
   /// Move on to a mean displacement (mm), in sub-steps where needed. Throws ComputationError with displacement,
   /// residual and likely cause when the least step does not converge.
   StepEffort advance_to(double target);
@@ -50,16 +54,21 @@ private:
   {
     Eigen::VectorXd solution;
     double displacement = 0; ///< mm
+    double pressure = 0;     ///< MPa
   };
+  /// One step along the path: predictor current + ratio (current - previous), equilibrium, acceptance. False: cut.
+  bool try_step(double ratio, StepEffort &effort);
   /// Equilibrium with settled contact pairs, from `trial`; false when Newton's method fails.
   bool solve(Eigen::VectorXd &trial, StepEffort &effort);
   void accept(Eigen::VectorXd trial);
-  Eigen::VectorXd predict(double target) const;
+  /// Largest distance that a surface point moves between two solutions, mm.
+  double motion_between(const Eigen::VectorXd &from, const Eigen::VectorXd &to) const;
+  void cut(StepEffort &effort);
 
   PelvisModel &model_;
   LoadStepperOptions options_;
   State previous_, current_;
-  double step_;              ///< mm, what the last step has shown to be possible
+  double motion_;            ///< mm, what the steps aim at now: options_.motion, less after cuts
   NewtonResult last_result_; ///< of the last solution, for the message when it failed
 };
 } // namespace pelvireg::reference_fe

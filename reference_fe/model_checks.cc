@@ -27,9 +27,10 @@ void check_material(const ReferenceModel &model, const std::string &key, const s
     throw InputError(fmt::format("{}: material '{}' is not defined; add it to the materials of the case", user, key));
   const dataset::YeohMaterial &m = found->second;
   if (!(m.c10 > 0) || !(m.c20 >= 0) || !(m.c30 >= 0) || !(m.kappa > 0))
-    throw InputError(fmt::format("material '{}': C10 = {} and kappa = {} MPa must be positive, C20 = {} and C30 = {} MPa "
-                                 "not negative; correct the case",
-                                 key, m.c10, m.kappa, m.c20, m.c30));
+    throw InputError(
+        fmt::format("material '{}': C10 = {} and kappa = {} MPa must be positive, C20 = {} and C30 = {} MPa "
+                    "not negative; correct the case",
+                    key, m.c10, m.kappa, m.c20, m.c30));
 }
 
 template <class Cells> void check_nodes_used(const std::string &part, Eigen::Index n_nodes, const Cells &cells)
@@ -39,7 +40,8 @@ template <class Cells> void check_nodes_used(const std::string &part, Eigen::Ind
   {
     const std::int32_t node = cells.data()[i];
     if (node < 0 || node >= n_nodes)
-      throw InputError(fmt::format("part '{}': a cell uses node {}, allowed 0 to {}; mend its mesh", part, node, n_nodes - 1));
+      throw InputError(
+          fmt::format("part '{}': a cell uses node {}, allowed 0 to {}; mend its mesh", part, node, n_nodes - 1));
     used[static_cast<std::size_t>(node)] = true;
   }
   for (Eigen::Index n = 0; n < n_nodes; ++n)
@@ -68,9 +70,10 @@ void check_shell_cells(const ReferenceShell &shell)
           jacobian.col(2) += q.value[i] * fibre;
         }
         if (!(jacobian.determinant() > 0))
-          throw InputError(fmt::format("shell '{}': cell {} is inverted at zeta = {} near node {} (Jacobian {:.3g}, must be "
-                                       "positive); refine the mesh or thin the wall",
-                                       shell.name, c, zeta, shell.cells(c, at), jacobian.determinant()));
+          throw InputError(
+              fmt::format("shell '{}': cell {} is inverted at zeta = {} near node {} (Jacobian {:.3g}, must be "
+                          "positive); refine the mesh or thin the wall",
+                          shell.name, c, zeta, shell.cells(c, at), jacobian.determinant()));
       }
     }
 }
@@ -87,9 +90,10 @@ void check_closed(const ReferenceShell &shell)
     on_rim.insert(rim.data(), rim.data() + rim.size());
   for (const auto &[edge, n] : count)
     if (n == 1 && !(on_rim.count(edge.first) && on_rim.count(edge.second)))
-      throw InputError(fmt::format("shell '{}': a cavity is asked but the surface is open at the edge of nodes {} and {}; "
-                                   "close it or list its border as a rim",
-                                   shell.name, edge.first, edge.second));
+      throw InputError(
+          fmt::format("shell '{}': a cavity is asked but the surface is open at the edge of nodes {} and {}; "
+                      "close it or list its border as a rim",
+                      shell.name, edge.first, edge.second));
 }
 
 std::map<std::string, Eigen::Index> node_counts(const ReferenceModel &model)
@@ -112,11 +116,12 @@ void check_trusses(const ReferenceModel &model)
     check_material(model, truss.material, user);
     if (!(truss.area > 0))
       throw InputError(fmt::format("{}: its area is {} mm^2, must be positive; correct the case", user, truss.area));
-    const auto check_end = [&](const std::string &part, std::int32_t node) {
+    const auto check_end = [&](const std::string &part, std::int32_t node)
+    {
       const auto found = count.find(part);
       if (found == count.end() || node < 0 || node >= found->second)
-        throw InputError(fmt::format("{}: it ends at node {} of part '{}', which does not exist; correct its ends", user,
-                                     node, part));
+        throw InputError(fmt::format("{}: it ends at node {} of part '{}', which does not exist; correct its ends",
+                                     user, node, part));
     };
     check_end(truss.part_a, truss.node_a);
     if (!truss.part_b.empty())
@@ -146,18 +151,20 @@ void check_held(const ReferenceModel &model)
         held.insert({a, b});
   for (const auto &[part, count] : node_counts(model))
     if (!held.count(part))
-      throw InputError(fmt::format("part '{}' is held by nothing: no fixed node, no bar, no tie to a held part; give it a "
-                                   "support",
-                                   part));
+      throw InputError(
+          fmt::format("part '{}' is held by nothing: no fixed node, no bar, no tie to a held part; give it a "
+                      "support",
+                      part));
 }
 } // namespace
 
 void check_model(const ReferenceModel &model)
 {
   if (!(model.target_displacement > 0) || model.n_increments < 1)
-    throw InputError(fmt::format("the reference needs a positive target displacement and at least one increment, got {} mm "
-                                 "and {}; correct the case",
-                                 model.target_displacement, model.n_increments));
+    throw InputError(
+        fmt::format("the reference needs a positive target displacement and at least one increment, got {} mm "
+                    "and {}; correct the case",
+                    model.target_displacement, model.n_increments));
   for (const ReferenceShell &shell : model.shells)
   {
     check_material(model, shell.material, "shell '" + shell.name + "'");

@@ -96,9 +96,10 @@ std::vector<int> oriented_rim(const dataset::ReferenceShell &shell, const datase
     std::rotate(loop.begin(), loop.begin() + 1, loop.end());
   for (std::size_t i = 0; i < loop.size(); ++i)
     if (loop.size() % 2 != 0 || !half_edges.count({loop[i], loop[(i + 1) % loop.size()]}))
-      throw InputError(fmt::format("shell '{}': rim node {} (position {} of {}) is not followed along a cell edge; list a "
-                                   "rim as a closed loop of alternating corner and mid-side nodes",
-                                   shell.name, loop[i], i, loop.size()));
+      throw InputError(
+          fmt::format("shell '{}': rim node {} (position {} of {}) is not followed along a cell edge; list a "
+                      "rim as a closed loop of alternating corner and mid-side nodes",
+                      shell.name, loop[i], i, loop.size()));
   return loop;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 
 namespace pelvireg::reference_fe
 {
@@ -56,21 +57,22 @@ public:
     return solid_node(*solid, first, node);
   }
 
-  /// Outer faces of one region.
-  std::vector<SurfaceFace> outer_faces(const std::string &part, SurfaceRegion region) const
+  /// Outer faces of one region, or of all.
+  std::vector<SurfaceFace> outer_faces(const std::string &part, std::optional<SurfaceRegion> region = {}) const
   {
+    const auto is_wanted = [&](std::int32_t code) { return !region || code == static_cast<std::int32_t>(*region); };
     std::vector<SurfaceFace> faces;
     if (const auto found = shells_.find(part); found != shells_.end())
     {
       const auto &[shell, first] = found->second;
       for (Eigen::Index c = 0; c < shell->cells.rows(); ++c)
-        if (shell->region[c] == static_cast<std::int32_t>(region))
+        if (is_wanted(shell->region[c]))
           faces.push_back(shell_face(*shell, first, c, +1));
       return faces;
     }
     const auto &[solid, first] = solids_.at(part);
     for (Eigen::Index f = 0; f < solid->faces.rows(); ++f)
-      if (solid->region[f] == static_cast<std::int32_t>(region))
+      if (is_wanted(solid->region[f]))
         faces.push_back(solid_face(*solid, first, f));
     return faces;
   }
@@ -95,11 +97,14 @@ std::vector<std::string> part_names(const ReferenceModel &reference)
   return names;
 }
 
+/// The shell's mixed integration points take a third of the iterations.
+constexpr bool mixed_points = true;
+
 void add_elements(const ReferenceModel &reference, const Parts &parts, PelvisModel &model)
 {
   for (const dataset::ReferenceShell &shell : reference.shells)
-    model.system.add_term(std::make_shared<ShellTerm>(
-        shell_body(shell), yeoh(reference.materials.at(shell.material)), parts.first_unknown(shell.name)));
+    model.system.add_term(std::make_shared<ShellTerm>(shell_body(shell), yeoh(reference.materials.at(shell.material)),
+                                                      parts.first_unknown(shell.name), mixed_points));
   for (const dataset::ReferenceSolid &solid : reference.solids)
     model.system.add_term(std::make_shared<QuadraticTetrahedra>(solid, reference.materials.at(solid.material),
                                                                 parts.first_unknown(solid.name)));
@@ -149,15 +154,12 @@ void add_ties(const ReferenceModel &reference, const Parts &parts, PelvisModel &
 {
   for (const auto &[a, b] : reference.ties)
   {
-    const auto faces_a = parts.outer_faces(a, SurfaceRegion::cervix_patch);
-    const auto faces_b = parts.outer_faces(b, SurfaceRegion::cervix_patch);
-    for (const auto &[part, faces] : {std::pair{&a, &faces_a}, std::pair{&b, &faces_b}})
-      if (faces->empty())
-        throw InputError(
-            fmt::format("tie {}–{}: part '{}' has no cell of region cervix_patch; mark the shared patch on "
-                        "both parts",
-                        a, b, *part));
-    model.ties.push_back(std::make_shared<Tie>("tie " + a + "–" + b, faces_a, faces_b));
+    // The patch of b on whatever part of a it lies: on a coarse mesh a's own patch of whole cells is another area.
+    const auto patch = parts.outer_faces(b, SurfaceRegion::cervix_patch);
+    if (patch.empty())
+      throw InputError(
+          fmt::format("tie {}–{}: part '{}' has no cell of region cervix_patch; mark the shared patch", a, b, b));
+    model.ties.push_back(std::make_shared<Tie>("tie " + a + "–" + b, patch, parts.outer_faces(a)));
     model.system.add_term(model.ties.back());
   }
 }

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace pelvireg::reference_fe
 {
 namespace
@@ -26,7 +28,6 @@ dataset::Truth solve_reference(const dataset::Anatomy &anatomy, const ReferenceO
   check_model(anatomy.reference);
   PelvisModel model = build_pelvis_model(anatomy, options.n_threads);
   TruthRecorder recorder(model, anatomy.case_name);
-  LoadStepper stepper(model, {});
   const auto report = [&](double done, const std::string &line)
   {
     if (options.progress)
@@ -34,13 +35,18 @@ dataset::Truth solve_reference(const dataset::Anatomy &anatomy, const ReferenceO
   };
   report(0, fmt::format("{} unknowns", model.system.n_free()));
 
-  stepper.start();
+  LoadStepperOptions stepping;
+  stepping.log = options.log;
+  LoadStepper stepper(model, stepping);
+  StepEffort settling = stepper.start(anatomy.reference.target_displacement);
   const int n = anatomy.reference.n_increments;
   for (int increment = 1; increment <= n; ++increment)
   {
     try
     {
-      const StepEffort effort = stepper.advance_to(anatomy.reference.target_displacement * increment / n);
+      StepEffort effort = stepper.advance_to(anatomy.reference.target_displacement * increment / n);
+      effort.newton_iterations += std::exchange(settling.newton_iterations, 0);
+      effort.cuts += std::exchange(settling.cuts, 0);
       recorder.record(stepper.solution(), effort);
     }
     catch (const ComputationError &error)

@@ -11,9 +11,9 @@ namespace pelvireg::reference_fe
 class Tie : public Term
 {
 public:
-  /// @param stiffness k, MPa/mm. Ten: a traction of 0.1 MPa opens the tie by 0.01 mm.
+  /// @param stiffness k, MPa/mm. Two: a traction of 0.02 MPa opens the tie by 0.01 mm.
   Tie(std::string name, const std::vector<SurfaceFace> &faces_a, const std::vector<SurfaceFace> &faces_b,
-      double stiffness = 10);
+      double stiffness = 2);
 
   std::string name() const override { return name_; }
   int n_items() const override { return static_cast<int>(points_.size()); }

@@ -192,8 +192,12 @@ bool PenaltyContact::search(const Eigen::VectorXd &solution)
   const bool changed = std::any_of(gaps.begin(), gaps.end(), [&](const auto &entry) {
     return std::abs(entry.second[0] - entry.second[1]) > options_.settled_gap;
   });
+  const auto is_same = [](const Pair &a, const Pair &b) {
+    return a.pass == b.pass && a.vertex == b.vertex && a.facet == b.facet;
+  };
+  if (!std::equal(found.begin(), found.end(), pairs_.begin(), pairs_.end(), is_same))
+    pairs_changed_ = true;
   pairs_ = std::move(found);
-  pairs_changed_ = true;
   return changed;
 }
 

@@ -23,7 +23,7 @@ struct ContactOptions
 {
   double penalty = 0.5;         ///< MPa/mm, slope of the traction at depth
   double onset = 0.2;           ///< mm, gap at which the traction begins (smoothly)
-  double search_distance = 1.5; ///< mm, gap up to which a vertex is followed
+  double search_distance = 2.5; ///< mm, gap up to which a vertex is followed
   double settled_gap = 0.02;    ///< mm
 };
 

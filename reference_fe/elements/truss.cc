@@ -1,35 +1,20 @@
 #include "reference_fe/elements/truss.h"
 
-#include <cmath>
 #include <utility>
 
 namespace pelvireg::reference_fe
 {
 namespace
 {
-constexpr double slack_strain = 0.02, slack_stiffness = 1e-3;
-
 Eigen::Vector3d rest_vector(const Bar &bar)
 {
   const Eigen::Vector3d end = bar.nodes.size() == 2 ? bar.nodes[1].rest_position() : bar.fixed_end;
   return end - bar.nodes[0].rest_position();
 }
-
-UniaxialResponse compressed(double young, double strain)
-{
-  const double t = strain / slack_strain, saturating = young * (1 - slack_stiffness);
-  // log cosh t without overflow.
-  const double log_cosh = std::abs(t) + std::log1p(std::exp(-2 * std::abs(t))) - std::log(2.);
-  return {0.5 * young * slack_stiffness * strain * strain + saturating * slack_strain * slack_strain * log_cosh,
-          young * slack_stiffness * strain + saturating * slack_strain * std::tanh(t),
-          young * slack_stiffness + saturating * (1 - std::tanh(t) * std::tanh(t))};
-}
 } // namespace
 
 UniaxialResponse uniaxial_response(const dataset::YeohMaterial &m, double lambda)
 {
-  if (lambda < 1)
-    return compressed(6 * m.c10, lambda - 1);
   const double e = lambda * lambda + 2 / lambda - 3;
   const double w1 = m.c10 + 2 * m.c20 * e + 3 * m.c30 * e * e, w2 = 2 * m.c20 + 6 * m.c30 * e;
   const double d1 = 2 * (lambda - 1 / (lambda * lambda)), d2 = 2 + 4 / (lambda * lambda * lambda);

@@ -26,10 +26,9 @@ struct UniaxialResponse
   double energy = 0, stress = 0, modulus = 0;
 };
 
-/// Tension: incompressible Yeoh, I1 = lambda^2 + 2 / lambda, nominal stress 2 (lambda - lambda^-2) sum i C_i0 (I1 -
-/// 3)^(i-1). Compression: a bar is a strand of fibres that buckles. Its stress follows the same slope E = 6 C10 at
-/// lambda = 1 and levels off at 2 % strain, E (1 - r) d tanh((lambda - 1)/d) + E r (lambda - 1) with d = 0.02, r =
-/// 0.001: once continuously differentiable, and never a zero stiffness.
+/// Incompressible Yeoh law, I1 = lambda^2 + 2 / lambda: nominal stress 2 (lambda - lambda^-2) sum_i i C_i0 (I1 -
+/// 3)^(i-1), initial modulus 6 C10. The same law in compression, as Abaqus' T3D2: fasciae and the urethra are pressed
+/// as well as pulled, and an organ that rests on slack bars alone would be a mechanism.
 UniaxialResponse uniaxial_response(const dataset::YeohMaterial &material, double lambda);
 
 /// Hyperelastic bars at finite strain: energy A L W(l / L).
