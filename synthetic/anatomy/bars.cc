@@ -65,6 +65,9 @@ void add_support(const Parameters &p, const Support &support, bool left, const R
   Points points;
   const std::vector<std::int32_t> nodes = surface_nodes(model, support.organ, points);
   std::set<std::int32_t> taken;
+  // A sheet of tissue resists shear, parallel bars do not: the bars of a fascia lean to either side by turns.
+  const Vector3d along = patches.far_point - patches.organ_point;
+  const Vector3d brace = 0.5 * along.norm() * along.cross(patches.organ_span).normalized();
   for (int i = 0; i < support.n_bars; ++i)
   {
     const double s = (i + 0.5) / support.n_bars - 0.5;
@@ -78,6 +81,8 @@ void add_support(const Parameters &p, const Support &support, bool left, const R
                       support.name, support.n_bars, support.organ, nodes.size()));
     taken.insert(bar.node_a);
     bar.fixed_point = patches.far_point + s * patches.far_span;
+    if (support.kind == "fascia" || support.material == "fascia")
+      bar.fixed_point += (i % 2 == 0 ? brace : -brace);
     bar.area = patches.area / support.n_bars;
     bar.material = support.material;
     bars.push_back(bar);
@@ -105,11 +110,34 @@ void add_urethra(const Parameters &p, const ReferenceModel &model, std::vector<R
     bar.part_a = "bladder";
     bar.node_a = nearest(points, nodes, neck + ring, taken);
     taken.insert(bar.node_a);
-    bar.fixed_point = p.urethra_far + ring;
+    // Twisted by turns, so that the bars brace each other as the wall of a tube does.
+    const double far_angle = angle + (i % 2 == 0 ? 1 : -1) * std::numbers::pi / 3;
+    bar.fixed_point = p.urethra_far + p.urethra_radius * (std::cos(far_angle) * u + std::sin(far_angle) * v);
     bar.area = p.urethra_area / p.urethra_bars;
     bar.material = p.material_of.at("urethra");
     bars.push_back(bar);
   }
+}
+
+/// The bladder lies on the pubic symphysis, a cushion of fat between: from each node that faces the bone four bars that
+/// spread like a pyramid, so that the cushion resists pressure and shear.
+void add_retropubic(const Parameters &p, const ReferenceModel &model, std::vector<ReferenceTruss> &bars)
+{
+  const std::size_t first = bars.size();
+  const Vector3d left = Vector3d::UnitX(), up = p.retropubic_normal.cross(left).normalized();
+  for (const dataset::ReferenceShell &shell : model.shells)
+    for (Eigen::Index n = 0; shell.name == "bladder" && n < shell.midsurface.rows(); ++n)
+    {
+      const Vector3d node = shell.midsurface.row(n).transpose();
+      const bool is_facing = shell.directors.row(n).dot(p.retropubic_normal) < -0.8;
+      if (is_facing && std::abs(node.x()) < p.retropubic_half_width)
+        for (const Vector3d &aside : {left, up, Vector3d(-left), Vector3d(-up)})
+          bars.push_back({"retropubic", "bladder", static_cast<std::int32_t>(n), "", -1,
+                          node + p.retropubic_depth * (aside - p.retropubic_normal), 0,
+                          p.material_of.at("retropubic")});
+    }
+  for (std::size_t b = first; b < bars.size(); ++b)
+    bars[b].area = p.retropubic_area / static_cast<double>(bars.size() - first);
 }
 
 /// From every node of the hiatus to the nearest node of vagina and anal canal within reach.
@@ -147,6 +175,7 @@ std::vector<ReferenceTruss> make_bars(const Parameters &p, const ReferenceModel 
     for (const bool left : {true, false})
       add_support(p, support, left, model, bars);
   add_urethra(p, model, bars);
+  add_retropubic(p, model, bars);
   add_hiatus(p, model, bars);
   return bars;
 }

@@ -179,7 +179,7 @@ void read_reference(TableReader table, Parameters &parameters)
   parameters.reference_size = table.number("shell_size", {2, 20, false});
   parameters.uterus_size = table.number("uterus_size", {3, 30, false});
   TableReader materials = table.table("material_of");
-  for (const std::string part : {"bladder", "vagina", "uterus", "rectum", "pelvic_floor", "urethra", "hiatus"})
+  for (const std::string part : {"bladder", "vagina", "uterus", "rectum", "pelvic_floor", "urethra", "retropubic", "hiatus"})
   {
     const std::string material = materials.text(part);
     if (parameters.materials.count(material) == 0)
@@ -223,6 +223,15 @@ void read_plane_and_load(TableReader plane, TableReader load, Parameters &parame
   load.finish();
 }
 
+void read_retropubic(TableReader table, Parameters &parameters)
+{
+  parameters.retropubic_normal = table.point("normal").normalized();
+  parameters.retropubic_depth = table.number("depth", positive);
+  parameters.retropubic_area = table.number("area", positive);
+  parameters.retropubic_half_width = table.number("half_width", positive);
+  table.finish();
+}
+
 void read_urethra_and_hiatus(TableReader urethra, TableReader membrane, Parameters &parameters)
 {
   parameters.urethra_far = urethra.point("far_point");
@@ -262,6 +271,7 @@ Parameters read_parameters(const std::string &text, const std::string &case_name
   parameters.rectum = read_rectum(root.table("rectum"));
   parameters.pelvic_floor = read_floor(root.table("pelvic_floor"));
   read_urethra_and_hiatus(root.table("urethra"), root.table("hiatus_membrane"), parameters);
+  read_retropubic(root.table("retropubic"), parameters);
   for (TableReader &support : root.tables("support"))
     parameters.supports.push_back(read_support(support, parameters));
   root.finish();

@@ -94,6 +94,8 @@ struct Parameters
   Eigen::Vector3d urethra_far; ///< fixed distal end of the urethra
   double urethra_area = 0, urethra_radius = 0;
   int urethra_bars = 0;
+  Eigen::Vector3d retropubic_normal; ///< unit, from the symphysis towards the bladder
+  double retropubic_depth = 0, retropubic_area = 0, retropubic_half_width = 0; ///< of the fatty space of Retzius
   double hiatus_reach = 0, hiatus_area = 0; ///< longest bar of the perineal membrane; section of one bar
 };
 
