@@ -28,7 +28,10 @@ std::string error_table_html(const runner::Evaluation &evaluation)
 {
   std::vector<std::string> heading = {"Mean surface error (mm)"};
   heading.insert(heading.end(), organ_names.begin(), organ_names.end());
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> mesh_difference = {"meshes at rest, before any motion"};
+  for (const runner::OrganMotion &organ : evaluation.motion)
+    mesh_difference.push_back(fmt::format("{:.2f}", organ.mesh_difference.mean));
+  std::vector<std::vector<std::string>> rows = {mesh_difference};
   for (const std::string &condition : evaluation.conditions)
   {
     std::vector<std::string> last = {condition + ", last step"}, largest = {condition + ", largest over all steps"},

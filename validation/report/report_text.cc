@@ -52,6 +52,24 @@ std::string definition(const std::string &term, const std::string &meaning)
 {
   return "<dt>" + escape(term) + "</dt><dd>" + escape(meaning) + "</dd>\n";
 }
+std::string definitions_of_runs()
+{
+  std::string html;
+  html += definition("Runs", "Sample 0 is the nominal run; in the others every Young's modulus is multiplied by "
+                             "1 + 0.10 U(-1, 1) unless stated otherwise. Means and standard deviations are over the "
+                             "randomised runs, or the nominal run alone when there are none.");
+  html += definition("Acceptance", "Share of control points that found a compatible triangle, least over the steps.");
+  html +=
+      definition("In-plane residual", "Mean distance in the image plane that the accepted control points still have to "
+                                      "their triangles after each position's last step, measured on a fresh matching.");
+  html +=
+      definition("Off-plane", "Component of the truth's displacement along the DYN plane's normal, absolute value.");
+  html +=
+      definition("Mean vaginal in-plane displacement", "Rest-arc-length mean of the in-plane displacement of the "
+                                                       "vagina's outer contour in the DYN plane, by the judge's own "
+                                                       "cut.");
+  return html;
+}
 } // namespace
 
 std::string page_head(const std::string &title)
@@ -90,20 +108,7 @@ std::string definitions_html(const runner::Evaluation &evaluation)
       definition("Unregistered", "The registration's rest mesh against every increment: the error of doing nothing.");
   html += definition("Boundary conditions", "Ligaments, fasciae, contact and organ attachments. Without them only the "
                                             "image constraints are left.");
-  html += definition("Runs", "Sample 0 is the nominal run; in the others every Young's modulus is multiplied by "
-                             "1 + 0.10 U(-1, 1) unless stated otherwise. Means and standard deviations are over the "
-                             "randomised runs, or the nominal run alone when there are none.");
-  html += definition("Acceptance", "Share of control points that found a compatible triangle, least over the steps.");
-  html +=
-      definition("In-plane residual", "Mean distance in the image plane that the accepted control points still have to "
-                                      "their triangles after each position's last step, measured on a fresh matching.");
-  html +=
-      definition("Off-plane", "Component of the truth's displacement along the DYN plane's normal, absolute value.");
-  html +=
-      definition("Mean vaginal in-plane displacement", "Rest-arc-length mean of the in-plane displacement of the "
-                                                       "vagina's outer contour in the DYN plane, by the judge's own "
-                                                       "cut.");
-  return html + "</dl>\n";
+  return html + definitions_of_runs() + "</dl>\n";
 }
 
 std::string limits_html()

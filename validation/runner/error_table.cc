@@ -54,9 +54,17 @@ std::string with_spread(const Aggregate &value)
   return value.n_runs > 1 ? fmt::format("{:.2f} +- {:.3f}", value.mean, value.sd) : fmt::format("{:.2f}", value.mean);
 }
 
+std::string mesh_difference(const Evaluation &evaluation)
+{
+  std::string line = fmt::format("{:<34}", "meshes at rest, before any motion");
+  for (const OrganMotion &organ : evaluation.motion)
+    line += fmt::format("{:>{}.2f}", organ.mesh_difference.mean, column);
+  return line + "\n";
+}
+
 std::string surface_errors(const Evaluation &evaluation)
 {
-  std::string text = header("Mean surface error, mm");
+  std::string text = header("Mean surface error, mm") + mesh_difference(evaluation);
   for (const std::string &condition : evaluation.conditions)
   {
     std::string last = fmt::format("{:<34}", condition + ", last step");

@@ -168,13 +168,20 @@ std::vector<Run> runs_in_order(const std::vector<dataset::Estimate> &estimates)
   return runs;
 }
 
-OrganMotion motion_of(const dataset::TruthSurface &surface, const dataset::Plane &plane, double spacing)
+OrganMotion motion_of(const dataset::TruthSurface &surface, const dataset::SurfaceMesh &unmoved,
+                      const dataset::Plane &plane, double spacing)
 {
   const auto samples = metrics::sample_surface(surface.rest, spacing);
   const Points displacement = metrics::sample_positions(samples, surface.rest.triangles, surface.displacements.back());
   const Eigen::VectorXd length = displacement.rowwise().norm();
   const Eigen::VectorXd off_plane = (displacement * plane.normal).cwiseAbs();
-  return {surface.name, length.mean(), length.maxCoeff(), off_plane.mean(), off_plane.maxCoeff()};
+  const Points rest = metrics::sample_positions(samples, surface.rest.triangles, surface.rest.points);
+  return {surface.name,
+          length.mean(),
+          length.maxCoeff(),
+          off_plane.mean(),
+          off_plane.maxCoeff(),
+          metrics::describe(metrics::surface_distances(rest, unmoved.points, unmoved.triangles, unmoved.region))};
 }
 
 /// Rest-arc-length mean of the in-plane displacement of the outer contour in the DYN plane (DESIGN 4), mm.
@@ -236,8 +243,9 @@ Evaluation describe_truth(const Context &context, const dataset::Truth &truth)
   evaluation.n_slices_each_side = context.anatomy.n_slices_each_side;
   evaluation.options = context.options;
   evaluation.options.progress = nullptr;
-  for (const TruthOrgan &organ : context.truth)
-    evaluation.motion.push_back(motion_of(*organ.surface, context.anatomy.dyn_plane, context.options.surface_spacing));
+  for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
+    evaluation.motion.push_back(motion_of(*context.truth[organ].surface, context.unmoved[organ],
+                                          context.anatomy.dyn_plane, context.options.surface_spacing));
   const auto vagina =
       static_cast<std::size_t>(std::find(organ_names.begin(), organ_names.end(), "vagina") - organ_names.begin());
   evaluation.vaginal_displacement =

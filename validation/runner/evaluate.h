@@ -59,6 +59,9 @@ struct OrganMotion
   std::string organ;
   double mean = 0, max = 0;                     ///< length of the displacement
   double mean_off_plane = 0, max_off_plane = 0; ///< its component along the DYN plane's normal, absolute value
+  /// Distance of the samples at rest to the registration's rest mesh: what two meshes of one shape differ before
+  /// anything moves. No registration can be expected to come below it.
+  metrics::Statistics mesh_difference;
 };
 
 /// What one run says of itself (issue A: acceptance at least 90 %, residual at most 0.3 mm at each position's last

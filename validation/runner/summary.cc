@@ -85,7 +85,8 @@ json motion(const Evaluation &evaluation)
     result["organs"][organ.organ] = {{"mean_mm", organ.mean},
                                      {"max_mm", organ.max},
                                      {"mean_off_plane_mm", organ.mean_off_plane},
-                                     {"max_off_plane_mm", organ.max_off_plane}};
+                                     {"max_off_plane_mm", organ.max_off_plane},
+                                     {"mesh_difference_at_rest_mm", organ.mesh_difference.mean}};
   return result;
 }
 

@@ -86,6 +86,16 @@ TEST(Evaluate, MeasuresTheTruthsMotionInAndOffThePlane)
   EXPECT_NEAR(evaluation.vaginal_displacement, std::sqrt(45.0), 1e-12);
 }
 
+TEST(Evaluate, MeasuresWhatTheTwoMeshesDifferBeforeAnyMotion)
+{
+  EXPECT_LE(judged({}).motion[0].mesh_difference.max, 1e-12) << "the same mesh";
+  dataset::Anatomy anatomy = test::sphere_anatomy();
+  anatomy.registration.bodies[2].points.col(2).array() += 200; // far from every other organ
+  const Evaluation evaluation = evaluate(anatomy, test::sphere_truth(translation), {});
+  EXPECT_NEAR(evaluation.motion[2].mesh_difference.mean, 200 - 15, 7) << "to the lower pole of the moved ellipsoid";
+  EXPECT_LE(evaluation.motion[3].mesh_difference.max, 1e-12);
+}
+
 TEST(Evaluate, SliceRowsExistExactlyWhereTheTruthIsCut)
 {
   const Evaluation evaluation = judged({test::sphere_estimate("full", translation, 1.0)});
