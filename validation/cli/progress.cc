@@ -86,11 +86,16 @@ void Progress::print_line(double fraction, const std::string &message)
   fmt::print("{}: {:.0f} %, {}\n", stage_, 100 * fraction, message);
 }
 
-void Progress::finish(const std::string &result)
+void Progress::say(const std::string &message)
 {
-  fmt::print("{}{}: {} ({:.1f} s)\n", has_bar_ ? "\r\033[K" : "", stage_, result, seconds());
+  fmt::print("{}{}: {}\n", has_bar_ ? "\r\033[K" : "", stage_, message);
   has_bar_ = false;
   std::fflush(stdout);
+}
+
+void Progress::finish(const std::string &result)
+{
+  say(fmt::format("{} ({:.1f} s)", result, seconds()));
 }
 
 std::function<void(double, const std::string &)> Progress::callback()

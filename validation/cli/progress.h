@@ -19,6 +19,8 @@ public:
 
   /// fraction: 0 … 1; message: one line of what happened.
   void update(double fraction, const std::string &message);
+  /// A line that stays.
+  void say(const std::string &message);
   void finish(const std::string &result);
   double seconds() const;
 

@@ -42,7 +42,7 @@ std::vector<report::ReportPicture> draw_pictures(const ResultDirectory &director
   progress.update(0.3, "drawing the pictures");
   const report::RenderOutcome outcome = report::render_in_child(directory.path(), directory.path() / picture_folder);
   if (!outcome.ok)
-    fmt::print("report: no pictures: {}\n", outcome.message);
+    progress.say("no pictures: " + outcome.message);
   std::vector<report::ReportPicture> pictures;
   for (const report::Picture &picture : report::picture_list())
     pictures.push_back({directory.path() / picture_folder / picture.file, picture.caption});
