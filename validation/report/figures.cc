@@ -2,6 +2,7 @@
 
 #include "synthetic/dataset/geometry.h"
 #include "validation/metrics/plane_cut.h"
+#include "validation/metrics/statistics.h"
 #include "validation/report/html.h"
 #include "validation/report/line_plot.h"
 #include "validation/runner/aggregate.h"
@@ -31,18 +32,30 @@ std::vector<std::string> panel_order(const runner::Evaluation &evaluation)
   return order;
 }
 
-std::string row_of_panels(std::vector<LinePlot> plots)
+/// One scale for all panels. A few outliers (a slice that grazes one end of an organ) must not flatten every curve:
+/// when the largest value is more than three times the 95th percentile, the axis ends at twice that percentile.
+double common_scale(const std::vector<LinePlot> &plots)
 {
-  double y_max = 0;
+  std::vector<double> values;
   for (const LinePlot &plot : plots)
     for (const Curve &curve : plot.curves)
       for (std::size_t i = 0; i < curve.values.size(); ++i)
         if (curve.values[i])
-          y_max = std::max(y_max, *curve.values[i] + (curve.spreads.empty() ? 0.0 : curve.spreads[i]));
+          values.push_back(*curve.values[i] + (curve.spreads.empty() ? 0.0 : curve.spreads[i]));
+  if (values.empty())
+    return 1;
+  const metrics::Statistics statistics = metrics::describe(values);
+  const double scale = statistics.max > 3 * statistics.p95 ? 2 * statistics.p95 : statistics.max;
+  return scale > 0 ? scale : 1;
+}
+
+std::string row_of_panels(std::vector<LinePlot> plots)
+{
+  const double y_max = common_scale(plots);
   std::string html = "<div class=\"legend\">" + legend_svg(organ_names) + "</div><div class=\"panels\">\n";
   for (LinePlot &plot : plots)
   {
-    plot.y_max = y_max > 0 ? y_max : 1;
+    plot.y_max = y_max;
     html += "<figure>" + line_plot_svg(plot) + "</figure>\n";
   }
   return html + "</div>\n";

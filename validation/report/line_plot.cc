@@ -33,8 +33,10 @@ struct Axes
 {
   double x_min, x_max, y_max, y_step;
 
+  static double y_max_position() { return top; }
   double x(double value) const { return left + (value - x_min) / (x_max - x_min) * (width - left - right); }
-  double y(double value) const { return height - bottom - value / y_max * (height - top - bottom); }
+  /// A value beyond the axis lies on its upper end.
+  double y(double value) const { return height - bottom - std::min(value / y_max, 1.0) * (height - top - bottom); }
 };
 
 Axes axes_of(const LinePlot &plot)
@@ -153,6 +155,10 @@ std::string curve_svg(const LinePlot &plot, const Axes &axes, std::size_t c)
   for (std::size_t i = (plot.abscissae.size() - 1) % stride; i < plot.abscissae.size(); i += stride)
     if (curve.values[i])
       svg += marker(c, axes.x(plot.abscissae[i]), axes.y(*curve.values[i]));
+  for (std::size_t i = 0; i < plot.abscissae.size(); ++i)
+    if (curve.values[i] && *curve.values[i] > axes.y_max)
+      svg += text_at(axes.x(plot.abscissae[i]) - 6, axes.y_max_position() + 4, "end",
+                     fmt::format("{:.0f} ↑", *curve.values[i]), fmt::format(" fill=\"{}\"", colours[c]));
   return svg;
 }
 

@@ -28,7 +28,7 @@ struct LinePlot
   std::string title, x_label, y_label;
   std::vector<double> abscissae;
   std::vector<Curve> curves;
-  double y_max = 1; ///< the axis reaches from 0 to the next round number above
+  double y_max = 1; ///< the axis reaches from 0 to the next round number above; a value beyond it is written out
   double x_tick = 5;
   std::vector<ReferenceLine> lines;
 };

@@ -37,6 +37,16 @@ TEST(LinePlot, PutsValuesWhereTheAxesSay)
   EXPECT_NE(svg.find(">2.5<"), std::string::npos);
 }
 
+TEST(LinePlot, WritesOutAValueBeyondTheAxis)
+{
+  LinePlot outlier = plot();
+  outlier.curves[0].values[1] = 95.0;
+  const std::string svg = line_plot_svg(outlier);
+  EXPECT_NE(svg.find(">95 ↑<"), std::string::npos);
+  EXPECT_EQ(count(svg, "cy=\"34.0\""), 2) << "the outlier and the last value lie on the axis' upper end";
+  EXPECT_EQ(count(svg, "cy=\"-"), 0);
+}
+
 TEST(LinePlot, EscapesItsText)
 {
   EXPECT_NE(line_plot_svg(plot()).find("title &lt;1&gt;"), std::string::npos);

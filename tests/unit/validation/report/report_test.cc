@@ -43,7 +43,8 @@ TEST(Report, PutsVerdictAndErrorsBeforeEverythingElse)
 TEST(Report, NeedsNoNetworkAndRunsNoScript)
 {
   const std::string html = Case().html();
-  for (const std::string word : {"http:", "https:", "src=\"/", "<script", "url(", "@import", ">nan", " nan", ",nan", ">inf"})
+  for (const std::string word :
+       {"http:", "https:", "src=\"/", "<script", "url(", "@import", ">nan", " nan", ",nan", ">inf"})
     EXPECT_EQ(html.find(word), std::string::npos) << word;
   EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
 }
