@@ -29,6 +29,9 @@ struct CervixPatch
 };
 CervixPatch cervix_patch(const UterusShape &uterus, const VaginaShape &vagina);
 
+/// A point of the undeviated uterus turned to the left about the antero-posterior axis through `centre`.
+Eigen::Vector3d deviated(const Eigen::Vector3d &point, const Eigen::Vector3d &centre, double degrees);
+
 /// The two patches of a support on one side, in place: mirrored for the right side; what is fastened to the uterus
 /// follows its deviation.
 struct SupportPatches

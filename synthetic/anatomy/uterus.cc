@@ -2,10 +2,7 @@
 // vagina's straight anterior wall: the end face is the shared patch itself.
 #include "synthetic/anatomy/organs.h"
 
-#include "synthetic/dataset/error.h"
-
 #include <Eigen/Geometry>
-#include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
@@ -25,12 +22,6 @@ std::pair<Vector3d, Vector3d> patch_on_wall(const UterusShape &uterus, const Vag
   const double station = axis.length() - uterus.patch_distance;
   const Vector3d tangent = axis.tangent(station), anterior = Vector3d::UnitX().cross(tangent);
   return {axis.point(station) + vagina.half_depth * anterior, anterior};
-}
-
-/// Deviated to the left about the antero-posterior axis through the patch.
-Vector3d deviated(const Vector3d &point, const Vector3d &centre, double degrees)
-{
-  return centre + Eigen::AngleAxisd(degrees * pi / 180, Vector3d::UnitY()) * (point - centre);
 }
 
 class UterusSurface
@@ -117,7 +108,7 @@ Chart chart_of(std::function<Vector3d(double, double)> map, const Vector3d &insi
   return chart;
 }
 
-Chart lateral_chart(const UterusSurface &surface, int face, const Vector3d &inside, int n_around, int n_along)
+Chart lateral_chart(const UterusSurface &surface, int face, int n_around, int n_along)
 {
   const double total = surface.end() + surface.cap_length();
   const auto map = [=](double a, double b) -> Vector3d
@@ -129,7 +120,6 @@ Chart lateral_chart(const UterusSurface &surface, int face, const Vector3d &insi
     const double c = std::cos(face * pi / 2), s = std::sin(face * pi / 2), across = std::tan(local);
     return surface.fundus({c - s * across, s + c * across, std::tan(elevation)});
   };
-  (void)inside;
   Chart chart;
   chart.n_a = n_around;
   chart.n_b = n_along;
@@ -175,6 +165,11 @@ std::vector<Chart> patch_charts(const UterusSurface &surface, const Vector3d &ou
 }
 } // namespace
 
+Vector3d deviated(const Vector3d &point, const Vector3d &centre, double degrees)
+{
+  return centre + Eigen::AngleAxisd(degrees * pi / 180, Vector3d::UnitY()) * (point - centre);
+}
+
 bool CervixPatch::contains(const Vector3d &point) const
 {
   const Vector3d d = point - centre;
@@ -188,21 +183,6 @@ CervixPatch cervix_patch(const UterusShape &uterus, const VaginaShape &vagina)
   return {centre, normal, axis, uterus.half_widths.front()};
 }
 
-SupportPatches support_patches(const Support &support, bool left, const Parameters &parameters)
-{
-  const Vector3d side(left ? 1 : -1, 1, 1);
-  SupportPatches patches = {support.organ_point.cwiseProduct(side), support.organ_span.cwiseProduct(side),
-                            support.far_point.cwiseProduct(side), support.far_span.cwiseProduct(side),
-                            left ? support.area_left : support.area_right};
-  if (support.organ == "uterus")
-  {
-    const Vector3d centre = patch_on_wall(parameters.uterus, parameters.vagina).first;
-    patches.organ_point = deviated(patches.organ_point, centre, parameters.uterus.deviation);
-    patches.organ_span = deviated(centre + patches.organ_span, centre, parameters.uterus.deviation) - centre;
-  }
-  return patches;
-}
-
 std::vector<Chart> uterus_charts(const UterusShape &uterus, const VaginaShape &vagina, double size)
 {
   const CervixPatch patch = cervix_patch(uterus, vagina);
@@ -211,7 +191,7 @@ std::vector<Chart> uterus_charts(const UterusShape &uterus, const VaginaShape &v
   const int n_along = count(surface.end() + surface.cap_length(), size, 3);
   std::vector<Chart> charts;
   for (int face = 0; face < 4; ++face)
-    charts.push_back(lateral_chart(surface, face, patch.centre, n_around, n_along));
+    charts.push_back(lateral_chart(surface, face, n_around, n_along));
   const auto top = [=](double a, double b) {
     return surface.fundus({std::tan((a - 0.5) * pi / 2), std::tan((b - 0.5) * pi / 2), 1});
   };
