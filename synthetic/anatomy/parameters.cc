@@ -179,7 +179,8 @@ void read_reference(TableReader table, Parameters &parameters)
   parameters.reference_size = table.number("shell_size", {2, 20, false});
   parameters.uterus_size = table.number("uterus_size", {3, 30, false});
   TableReader materials = table.table("material_of");
-  for (const std::string part : {"bladder", "vagina", "uterus", "rectum", "pelvic_floor", "urethra", "retropubic", "hiatus"})
+  for (const std::string part :
+       {"bladder", "vagina", "uterus", "rectum", "pelvic_floor", "urethra", "retropubic", "hiatus"})
   {
     const std::string material = materials.text(part);
     if (parameters.materials.count(material) == 0)
@@ -226,6 +227,8 @@ void read_plane_and_load(TableReader plane, TableReader load, Parameters &parame
 void read_retropubic(TableReader table, Parameters &parameters)
 {
   parameters.retropubic_normal = table.point("normal").normalized();
+  if (!(parameters.retropubic_normal.norm() > 0))
+    table.fail("normal", "is zero, but a direction from the bone towards the bladder is needed; give one.");
   parameters.retropubic_depth = table.number("depth", positive);
   parameters.retropubic_area = table.number("area", positive);
   parameters.retropubic_half_width = table.number("half_width", positive);

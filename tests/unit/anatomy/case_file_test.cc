@@ -92,6 +92,12 @@ TEST(CaseFile, RefusesAnUndefinedMaterial)
                    {"reference.material_of.urethra", "rubber"});
 }
 
+TEST(CaseFile, RefusesADirectionOfNoLength)
+{
+  expect_complaint(altered("normal = [0.0, 0.656, 0.754]", "normal = [0, 0, 0]"),
+                   {"retropubic.normal", "is zero", "direction"});
+}
+
 TEST(CaseFile, RefusesOrgansThatOverlap)
 {
   expect_complaint(altered("fundus = [0.0, 5.0, 101.0]", "fundus = [0.0, -15.0, 88.0]"),
