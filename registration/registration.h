@@ -65,7 +65,10 @@ struct Observation
 
 struct Options
 {
-  double time_step = 0.02;           ///< h of equation 8, s, > 0
+  /// h of equation 8, s, > 0. M / h^2 is all that holds a floating organ across the image plane; no velocity is
+  /// carried, so it acts as damping and not as inertia. Of 0.02, 0.01 and 0.005 s the last is the first at which every
+  /// outline of the trial motions settles within 0.3 mm in three steps, with and without attachments.
+  double time_step = 0.005;
   bool use_attachments = true;       ///< anatomical constraints chi and the bodies that only serve them
   double max_match_distance = 30;    ///< mm: a control point whose nearest compatible triangle is farther is refused
   double min_normal_agreement = 0.5; ///< least cosine between the contour's and the triangle's in-plane normal
