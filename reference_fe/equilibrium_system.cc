@@ -210,6 +210,12 @@ Eigen::VectorXd EquilibriumSystem::solve(const Eigen::VectorXd &rhs) const
   return x;
 }
 
+void EquilibriumSystem::linearise_at(const Eigen::VectorXd &solution)
+{
+  for (const auto &term : terms_)
+    term->linearise_at(solution);
+}
+
 void EquilibriumSystem::end_step(bool accepted)
 {
   for (const auto &term : terms_)

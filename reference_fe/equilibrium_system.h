@@ -69,6 +69,8 @@ public:
   int n_patterns_built() const { return n_patterns_built_; }
   double n_factor_entries() const { return lu_.n_factor_entries(); }
 
+  /// Tell every term that the next trials start from `solution`.
+  void linearise_at(const Eigen::VectorXd &solution);
   /// Tell every term that the step was accepted or thrown away.
   void end_step(bool accepted);
 

@@ -14,6 +14,7 @@ NewtonStatus take_step(EquilibriumSystem &system, Eigen::VectorXd &solution, con
                        const NewtonOptions &options, double &step_length)
 {
   const double merit_before = system.residual_merit();
+  system.linearise_at(solution);
   for (int halving = 0; halving <= options.max_halvings; ++halving, step_length *= 0.5)
   {
     const Eigen::VectorXd trial = solution + step_length * increment;
@@ -63,6 +64,7 @@ NewtonResult solve_newton(EquilibriumSystem &system, Eigen::VectorXd &solution, 
     return result;
   };
 
+  system.linearise_at(solution);
   system.assemble(solution, true);
   while (true)
   {

@@ -41,6 +41,9 @@ public:
   /// Residual, tangent and energy of one item at `solution` (all global unknowns).
   virtual void evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &local) const = 0;
 
+  /// Newton's method linearises at `solution`, the last accepted iterate; trials that follow may be thrown away.
+  virtual void linearise_at(const Eigen::VectorXd & /*solution*/) {}
+
   /// A step has been accepted (true) or thrown away (false): keep or drop history.
   virtual void end_step(bool /*accepted*/) {}
 };

@@ -52,13 +52,10 @@ ShellTerm::ShellTerm(const ShellBody &body, std::shared_ptr<const HyperelasticLa
   }
 }
 
-bool ShellTerm::update(const Eigen::VectorXd &solution)
+void ShellTerm::linearise_at(const Eigen::VectorXd &solution)
 {
-  if (!mixed_integration_points_ || (current_.size() == solution.size() && current_ == solution))
-    return false;
-  previous_ = current_.size() == solution.size() ? current_ : solution;
-  current_ = solution;
-  return false;
+  if (mixed_integration_points_)
+    linearised_at_ = solution;
 }
 
 void ShellTerm::unknowns(int item, std::vector<int> &indices) const
@@ -73,9 +70,9 @@ Eigen::VectorXd ShellTerm::gather(int item, const Eigen::VectorXd &solution) con
 
 void ShellTerm::evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &local) const
 {
-  if (!mixed_integration_points_)
+  if (linearised_at_.size() != solution.size())
     return cells_[item].evaluate(*law_, gather(item, solution), nullptr, local);
-  const Eigen::VectorXd previous = gather(item, previous_);
+  const Eigen::VectorXd previous = gather(item, linearised_at_);
   cells_[item].evaluate(*law_, gather(item, solution), &previous, local);
 }
 

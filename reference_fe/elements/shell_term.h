@@ -28,9 +28,10 @@ public:
 
   std::string name() const override { return name_; }
   int n_items() const override { return static_cast<int>(cells_.size()); }
-  bool update(const Eigen::VectorXd &solution) override;
   void unknowns(int item, std::vector<int> &indices) const override;
   void evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &local) const override;
+
+  void linearise_at(const Eigen::VectorXd &solution) override;
 
   double rest_volume() const; ///< mm^3
   /// Smallest det(dx/dX) of all cells: not positive means folded. The cell it occurs in, when asked for.
@@ -45,6 +46,6 @@ private:
   std::vector<ShellCell> cells_;
   Eigen::MatrixXi unknowns_; ///< 7 n_nodes_a_cell x n_cells
   bool mixed_integration_points_;
-  Eigen::VectorXd current_, previous_; ///< iterates, kept for the mixed integration points only
+  Eigen::VectorXd linearised_at_; ///< last accepted iterate: where mixed integration points extrapolate from
 };
 } // namespace pelvireg::reference_fe

@@ -122,6 +122,32 @@ TEST(EquilibriumSystem, UnconstrainedPartIsReportedAsSingular)
   EXPECT_NE(result.message.find("displacement"), std::string::npos);
 }
 
+/// Records where it is linearised.
+class Witness : public SpringChain
+{
+public:
+  using SpringChain::SpringChain;
+  void linearise_at(const Eigen::VectorXd &x) override { points.push_back(x); }
+  std::vector<Eigen::VectorXd> points;
+};
+
+TEST(EquilibriumSystem, RejectedTrialIsNeverAPointOfLinearisation)
+{
+  // A start far out on the cubic spring: the monotone line search throws trials away.
+  EquilibriumSystem system;
+  system.add_unknowns(3, {.name = "displacement"});
+  const auto witness = std::make_shared<Witness>(2, 1.0);
+  system.add_term(witness);
+  system.fix(0);
+  Eigen::VectorXd x = Eigen::Vector3d(0, 0.01, 30);
+  const Eigen::VectorXd start = x;
+  const NewtonResult result = solve_newton(system, x, {.max_iterations = 100, .max_merit_growth = 0.9});
+  ASSERT_TRUE(result.converged()) << result.message;
+  ASSERT_EQ(witness->points.size(), result.iterations.size() + 1);
+  EXPECT_EQ(witness->points.front(), start);
+  EXPECT_EQ(witness->points[1], start);
+}
+
 TEST(EquilibriumSystem, NotANumberIsNeverConverged)
 {
   EquilibriumSystem system = chain(3, 1.0, 1);
