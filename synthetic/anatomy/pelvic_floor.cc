@@ -45,7 +45,8 @@ std::vector<Chart> floor_charts(const FloorShape &shape, double size)
     const Vector3d normal = normal_by_differences(point, a, b, 1e-6, 1e-6);
     return SurfacePoint{point(a, b), normal[2] < 0 ? Vector3d(-normal) : normal};
   };
-  chart.region = [](const SurfacePoint &) { return SurfaceRegion::wall; };
+  // The abdominal pressure reaches the whole cranial face through the fat that lies between it and the peritoneum.
+  chart.region = [](const SurfacePoint &) { return SurfaceRegion::peritoneal; };
   return {chart};
 }
 } // namespace pelvireg::anatomy
