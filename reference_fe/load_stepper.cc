@@ -110,20 +110,36 @@ void LoadStepper::cut(StepEffort &effort)
 
 bool LoadStepper::solve(Eigen::VectorXd &trial, StepEffort &effort)
 {
-  NewtonOptions newton;
-  newton.residual_tolerance = options_.residual_tolerance;
-  newton.max_iterations = options_.max_iterations;
   if (model_.contact)
     model_.contact->search(current_.solution);
   for (int search = 0;; ++search)
   {
-    last_result_ = solve_newton(model_.system, trial, newton);
-    effort.newton_iterations += static_cast<int>(last_result_.iterations.size());
-    effort.residual = last_result_.residual;
+    solve_equilibrium(trial, effort);
     if (!last_result_.converged())
       return false;
     if (!model_.contact || search == options_.max_contact_searches || !model_.contact->search(trial))
       return true;
+  }
+}
+
+void LoadStepper::solve_equilibrium(Eigen::VectorXd &trial, StepEffort &effort)
+{
+  const Eigen::VectorXd predicted = trial;
+  NewtonOptions newton;
+  newton.residual_tolerance = options_.residual_tolerance;
+  newton.max_iterations = options_.max_iterations;
+  for (const bool mixed : {true, false})
+  {
+    for (const std::shared_ptr<ShellTerm> &shell : model_.shells)
+      shell->use_mixed_integration_points(mixed);
+    last_result_ = solve_newton(model_.system, trial, newton);
+    effort.newton_iterations += static_cast<int>(last_result_.iterations.size());
+    effort.residual = last_result_.residual;
+    if (last_result_.converged())
+      return;
+    // What is close already is worth going on from.
+    if (!(last_result_.residual < options_.close_residual))
+      trial = predicted;
   }
 }
 

@@ -97,14 +97,14 @@ std::vector<std::string> part_names(const ReferenceModel &reference)
   return names;
 }
 
-/// The shell's mixed integration points take a third of the iterations.
-constexpr bool mixed_points = true;
-
 void add_elements(const ReferenceModel &reference, const Parts &parts, PelvisModel &model)
 {
   for (const dataset::ReferenceShell &shell : reference.shells)
-    model.system.add_term(std::make_shared<ShellTerm>(shell_body(shell), yeoh(reference.materials.at(shell.material)),
-                                                      parts.first_unknown(shell.name), mixed_points));
+  {
+    model.shells.push_back(std::make_shared<ShellTerm>(shell_body(shell), yeoh(reference.materials.at(shell.material)),
+                                                       parts.first_unknown(shell.name), true));
+    model.system.add_term(model.shells.back());
+  }
   for (const dataset::ReferenceSolid &solid : reference.solids)
     model.system.add_term(std::make_shared<QuadraticTetrahedra>(solid, reference.materials.at(solid.material),
                                                                 parts.first_unknown(solid.name)));

@@ -5,6 +5,7 @@
 #include "reference_fe/constraints/displacement_probe.h"
 #include "reference_fe/constraints/tie.h"
 #include "reference_fe/contact/penalty_contact.h"
+#include "reference_fe/elements/shell_term.h"
 #include "reference_fe/elements/truss.h"
 #include "reference_fe/equilibrium_system.h"
 #include "reference_fe/outer_surface.h"
@@ -25,6 +26,7 @@ struct PelvisModel
   EquilibriumSystem system;
   int n_strain_terms = 0; ///< the first terms of the system store strain energy: shells, solids, trusses
   int pressure_unknown = 0;
+  std::vector<std::shared_ptr<ShellTerm>> shells;
   std::shared_ptr<DisplacementProbe> probe;
   std::shared_ptr<PenaltyContact> contact; ///< null when nothing may touch
   std::vector<std::shared_ptr<Cavity>> cavities;

@@ -52,6 +52,12 @@ ShellTerm::ShellTerm(const ShellBody &body, std::shared_ptr<const HyperelasticLa
   }
 }
 
+void ShellTerm::use_mixed_integration_points(bool use)
+{
+  mixed_integration_points_ = use;
+  linearised_at_.resize(0);
+}
+
 void ShellTerm::linearise_at(const Eigen::VectorXd &solution)
 {
   if (mixed_integration_points_)

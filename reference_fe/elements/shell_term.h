@@ -28,6 +28,8 @@ public:
 
   std::string name() const override { return name_; }
   int n_items() const override { return static_cast<int>(cells_.size()); }
+  /// Switch between the mixed integration points and the exact tangent.
+  void use_mixed_integration_points(bool use);
   void unknowns(int item, std::vector<int> &indices) const override;
   void evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &local) const override;
 

@@ -1,0 +1,149 @@
+#include "reference_fe/elements/quadratic_tetrahedron.h"
+#include "reference_fe/elements/truss.h"
+#include "reference_fe/newton_solver.h"
+#include "synthetic/dataset/error.h"
+#include "tests/unit/reference_fe/terms/difference_quotients.h"
+#include "tests/unit/reference_fe/terms/sample_parts.h"
+
+#include <cmath>
+#include <memory>
+
+namespace pelvireg::reference_fe
+{
+namespace
+{
+const dataset::YeohMaterial wall = {0.1, 0.3, 0, 20};
+
+SurfaceNode free_node(int first_unknown, const Eigen::Vector3d &at)
+{
+  SurfaceNode node;
+  node.first_unknown = first_unknown;
+  node.rest = at;
+  return node;
+}
+
+TEST(Truss, StressIsTheDerivativeOfTheEnergyAndModulusOfTheStress)
+{
+  for (const double lambda : {0.6, 0.999, 1.001, 1.7})
+  {
+    const double step = 1e-6;
+    const UniaxialResponse at = uniaxial_response(wall, lambda), plus = uniaxial_response(wall, lambda + step),
+                           minus = uniaxial_response(wall, lambda - step);
+    EXPECT_NEAR(at.stress, (plus.energy - minus.energy) / (2 * step), 1e-8) << lambda;
+    EXPECT_NEAR(at.modulus, (plus.stress - minus.stress) / (2 * step), 1e-7) << lambda;
+  }
+  EXPECT_EQ(uniaxial_response(wall, 1).stress, 0);
+  EXPECT_NEAR(uniaxial_response(wall, 1).modulus, 6 * wall.c10, 1e-14);
+}
+
+TEST(Truss, ResidualAndTangentAgreeWithDifferenceQuotients)
+{
+  Bar between{"", {free_node(0, {0, 0, 0}), free_node(3, {3, 1, 2})}, {}, 2.5, wall};
+  Bar to_point{"", {free_node(0, {0, 0, 0})}, {1, -2, 4}, 1.5, wall};
+  const Trusses bars({between, to_point});
+  const Eigen::VectorXd solution = 0.5 * scattered(6, 11);
+  for (const int item : {0, 1})
+  {
+    EXPECT_LT(residual_error(bars, item, solution, 1e-5), 1e-7);
+    EXPECT_LT(tangent_error(bars, item, solution, 1e-5), 1e-7);
+  }
+}
+
+TEST(Truss, TheTwoBarTrussFollowsItsClosedFormThroughTheSnap)
+{
+  // Two bars of span b and rise h; the vertical force at height z is 2 A P(l/L) z/l.
+  const double b = 10, h = 2, area = 3, length = std::hypot(b, h);
+  const SurfaceNode apex = free_node(0, {0, 0, h});
+  const Trusses bars({{"", {apex}, {-b, 0, 0}, area, wall}, {"", {apex}, {b, 0, 0}, area, wall}});
+  for (const double z : {1.5, 0.5, 0.0, -0.7, -2.0, -3.0})
+  {
+    const Eigen::VectorXd solution = Eigen::Vector3d(0, 0, z - h);
+    double force = 0;
+    LocalSystem local;
+    for (int item = 0; item < 2; ++item)
+    {
+      bars.evaluate(item, solution, local);
+      force += local.residual[2];
+    }
+    const double l = std::hypot(b, z);
+    EXPECT_NEAR(force, 2 * area * uniaxial_response(wall, l / length).stress * z / l, 1e-12) << z;
+  }
+}
+
+TEST(QuadraticTetrahedron, ResidualAndTangentAgreeWithDifferenceQuotients)
+{
+  const dataset::ReferenceSolid block = block_solid(1, {1, 1.2, 0.9});
+  const QuadraticTetrahedra term(block, wall, 0);
+  const Eigen::VectorXd solution = 0.03 * scattered(3 * static_cast<int>(block.points.rows()), 12);
+  for (const int item : {0, 3})
+  {
+    EXPECT_LT(residual_error(term, item, solution, 1e-5), 1e-6);
+    EXPECT_LT(tangent_error(term, item, solution, 1e-5), 1e-6);
+  }
+}
+
+TEST(QuadraticTetrahedron, AnInvertedCellIsRefused)
+{
+  dataset::ReferenceSolid block = block_solid(1, {1, 1, 1});
+  block.cells.row(2).head<2>().reverseInPlace();
+  EXPECT_THROW(QuadraticTetrahedra(block, wall, 0), InputError);
+}
+
+/// A block pulled to `lambda` along x, its sides free: the nominal stress in x.
+double pulled_block_stress(double lambda)
+{
+  const dataset::ReferenceSolid block = block_solid(2, {2, 1, 1});
+  EquilibriumSystem system;
+  const int n = static_cast<int>(block.points.rows());
+  system.add_unknowns(3 * n, {"block"});
+  system.add_term(std::make_shared<QuadraticTetrahedra>(block, wall, 0));
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(3 * n);
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < 3; ++k)
+    {
+      const double x = block.points(i, k);
+      solution[3 * i + k] = (k == 0 ? lambda - 1 : 1 / std::sqrt(lambda) - 1) * x;
+      if (x < 1e-9 || (k == 0 && x > 2 - 1e-9))
+        system.fix(3 * i + k);
+    }
+  EXPECT_TRUE(solve_newton(system, solution, {}).converged());
+  double force = 0;
+  for (int i = 0; i < n; ++i)
+    if (block.points(i, 0) > 2 - 1e-9)
+      force += system.residual()[3 * i];
+  return force;
+}
+
+TEST(QuadraticTetrahedron, AUniaxiallyPulledBlockFollowsTheIncompressibleClosedForm)
+{
+  // kappa/mu = 100: nearly incompressible, so close to the closed form of the bar.
+  for (const double lambda : {0.8, 1.1, 1.4})
+    EXPECT_NEAR(pulled_block_stress(lambda) / uniaxial_response(wall, lambda).stress, 1, 0.01) << lambda;
+}
+
+TEST(QuadraticTetrahedron, AHomogeneousDeformationPassesThePatchTest)
+{
+  // Interior nodes of an affinely deformed block carry no residual.
+  const dataset::ReferenceSolid block = block_solid(2, {1, 1, 1});
+  const int n = static_cast<int>(block.points.rows());
+  Eigen::Matrix3d gradient;
+  gradient << 0.1, 0.05, -0.02, 0.03, -0.04, 0.06, 0.02, 0.01, -0.05;
+  Eigen::VectorXd solution(3 * n);
+  for (int i = 0; i < n; ++i)
+    solution.segment<3>(3 * i) = gradient * block.points.row(i).transpose();
+  EquilibriumSystem system;
+  system.add_unknowns(3 * n, {"block"});
+  system.add_term(std::make_shared<QuadraticTetrahedra>(block, wall, 0));
+  system.assemble(solution, false);
+  double interior = 0, boundary = 0;
+  for (int i = 0; i < n; ++i)
+  {
+    const bool inside = (block.points.row(i).array() > 1e-9).all() && (block.points.row(i).array() < 1 - 1e-9).all();
+    double &largest = inside ? interior : boundary;
+    largest = std::max(largest, system.residual().segment<3>(3 * i).cwiseAbs().maxCoeff());
+  }
+  EXPECT_LT(interior, 1e-12);
+  EXPECT_GT(boundary, 1e-3);
+}
+} // namespace
+} // namespace pelvireg::reference_fe
