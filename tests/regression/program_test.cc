@@ -92,7 +92,7 @@ const std::vector<BadValue> bad_values = {
     {"\nvagina = 0.66", "\nvagina = 0", "youngs_modulus.vagina"},
     {"\nwall = ", "\nwall = -", "wall"},
     {"\ntilt = ", "\ntilted = 1\ntilt = ", "tilted"},
-    {"\ntarget_displacement = 8.2", "\ntarget_displacement = nan", "target_displacement"},
+    {"\ntarget_displacement = 3.6", "\ntarget_displacement = nan", "target_displacement"},
     {"\nn_increments = 15", "\nn_increments = \"many\"", "n_increments"}};
 
 std::string replaced(std::string text, const std::string &pattern, const std::string &replacement)
