@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 
@@ -173,17 +175,27 @@ void add_contact(const ReferenceModel &reference, PelvisModel &model)
   for (const OuterSurface &outer : model.surfaces)
   {
     ContactSurface surface{outer.part, outer.vertices, {}};
+    // Facets on a fixed edge stay out: a force on the face of a hinged node would only swing its director.
+    const auto is_fixed = [&](int v) { return model.system.is_fixed(outer.vertices[v].first_unknown); };
     for (Eigen::Index t = 0; t < outer.triangles.rows(); ++t)
-      if (outer.region[t] == static_cast<std::int32_t>(SurfaceRegion::wall) ||
-          outer.region[t] == static_cast<std::int32_t>(SurfaceRegion::peritoneal))
-        surface.facets.push_back({outer.triangles(t, 0), outer.triangles(t, 1), outer.triangles(t, 2)});
+    {
+      const std::array<int, 3> facet = {outer.triangles(t, 0), outer.triangles(t, 1), outer.triangles(t, 2)};
+      const bool may_touch = outer.region[t] == static_cast<std::int32_t>(SurfaceRegion::wall) ||
+                             outer.region[t] == static_cast<std::int32_t>(SurfaceRegion::peritoneal);
+      if (may_touch && std::none_of(facet.begin(), facet.end(), is_fixed))
+        surface.facets.push_back(facet);
+    }
     index[outer.part] = static_cast<int>(surfaces.size());
     surfaces.push_back(std::move(surface));
   }
   std::vector<std::pair<int, int>> pairs;
   for (const auto &[a, b] : reference.contact_pairs)
     pairs.emplace_back(index.at(a), index.at(b));
-  model.contact = std::make_shared<PenaltyContact>(std::move(surfaces), pairs, ContactOptions{});
+  // A wide onset spreads the traction over the coarse nodes of a soft wall: 0.04 MPa when the surfaces just meet.
+  ContactOptions options;
+  options.penalty = 0.25;
+  options.onset = 0.6;
+  model.contact = std::make_shared<PenaltyContact>(std::move(surfaces), pairs, options);
   model.system.add_term(model.contact);
 }
 

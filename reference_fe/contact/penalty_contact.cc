@@ -52,9 +52,7 @@ std::vector<double> vertex_areas(const ContactSurface &surface)
 std::vector<std::array<bool, 3>> border_edges(const std::vector<std::array<int, 3>> &facets)
 {
   std::map<std::pair<int, int>, int> count;
-  const auto edge = [](const std::array<int, 3> &facet, int k) {
-    return std::minmax({facet[k], facet[(k + 1) % 3]});
-  };
+  const auto edge = [](const std::array<int, 3> &facet, int k) { return std::minmax({facet[k], facet[(k + 1) % 3]}); };
   for (const std::array<int, 3> &facet : facets)
     for (int k = 0; k < 3; ++k)
       ++count[edge(facet, k)];
@@ -64,14 +62,29 @@ std::vector<std::array<bool, 3>> border_edges(const std::vector<std::array<int, 
   return border;
 }
 
-/// The closest point lies on an edge that bounds the surface: the vertex may be beyond the border.
-bool is_on_border(const Eigen::Vector3d &barycentric, const std::array<bool, 3> &border)
+double smooth_step(double t)
 {
-  for (int k = 0; k < 3; ++k)
-    if (border[k] && barycentric[(k + 2) % 3] == 0)
-      return true;
-  return false;
+  t = std::clamp(t, 0., 1.);
+  return t * t * (3 - 2 * t);
 }
+
+/// How far a vertex counts as facing a facet, from 0 at 107 degrees between the outward normals to 1 at 127 degrees:
+/// where an edge rubs along a wall (the hiatus along the rectum), pairs come and go gently.
+double facing_weight(double cosine)
+{
+  return smooth_step((-cosine - 0.3) / 0.3);
+}
+
+/// Falls from 1 to 0 over the last third of a facet towards an open border.
+double border_weight(const Eigen::Vector3d &barycentric, const std::array<bool, 3> &border)
+{
+  double weight = 1;
+  for (int k = 0; k < 3; ++k)
+    if (border[k])
+      weight = std::min(weight, smooth_step(3 * barycentric[(k + 2) % 3]));
+  return weight;
+}
+
 } // namespace
 
 ContactLaw contact_law(double gap, double onset)
@@ -126,16 +139,17 @@ void PenaltyContact::find_pairs_of_pass(int p, const std::vector<Eigen::Matrix3X
   {
     if (vertex_areas_[pass.vertex_side][v] == 0)
       continue;
-    const Eigen::Vector3d point = vertices.col(v);
+    const Eigen::Vector3d point = vertices.col(v), own_normal = normals.col(v).normalized();
     grid.candidates(point, options_.search_distance, candidates);
     double best_distance = options_.search_distance, best_height = 0;
     int best = -1;
-    bool on_border = false;
+    double best_weight = 0;
     for (const int f : candidates)
     {
       const std::array<int, 3> &facet = to.facets[f];
       const Eigen::Vector3d normal = facet_normal(corners, facet).normalized();
-      if (normal.dot(normals.col(v)) >= 0)
+      const double facing = facing_weight(normal.dot(own_normal));
+      if (facing == 0)
         continue;
       const ClosestPoint found =
           closest_point(point, corners.col(facet[0]), corners.col(facet[1]), corners.col(facet[2]));
@@ -148,9 +162,9 @@ void PenaltyContact::find_pairs_of_pass(int p, const std::vector<Eigen::Matrix3X
       best_distance = found.distance;
       best_height = height;
       best = f;
-      on_border = is_on_border(found.barycentric, border_[pass.facet_side][f]);
+      best_weight = facing * border_weight(found.barycentric, border_[pass.facet_side][f]);
     }
-    if (best < 0 || on_border)
+    if (best < 0 || best_weight == 0)
       continue;
     const std::array<int, 3> &facet = to.facets[best];
     pairs.push_back({p,
@@ -158,7 +172,7 @@ void PenaltyContact::find_pairs_of_pass(int p, const std::vector<Eigen::Matrix3X
                      best,
                      {from.vertices[v], to.vertices[facet[0]], to.vertices[facet[1]], to.vertices[facet[2]]},
                      pass.clearance[v],
-                     vertex_areas_[pass.vertex_side][v]});
+                     best_weight * vertex_areas_[pass.vertex_side][v]});
   }
 }
 
@@ -181,7 +195,8 @@ double PenaltyContact::gap(const Pair &pair, const Eigen::VectorXd &solution) co
 bool PenaltyContact::search(const Eigen::VectorXd &solution)
 {
   std::map<std::pair<int, int>, std::array<double, 2>> gaps; // by pass and vertex: with the old and the new pairs
-  const auto note_gaps = [&](const std::vector<Pair> &pairs, int which) {
+  const auto note_gaps = [&](const std::vector<Pair> &pairs, int which)
+  {
     for (const Pair &pair : pairs)
       if (const double g = gap(pair, solution); g < options_.onset)
         gaps.try_emplace({pair.pass, pair.vertex}, std::array{options_.onset, options_.onset}).first->second[which] = g;
@@ -189,19 +204,21 @@ bool PenaltyContact::search(const Eigen::VectorXd &solution)
   std::vector<Pair> found = find_pairs(solution);
   note_gaps(pairs_, 0);
   note_gaps(found, 1);
-  const bool changed = std::any_of(gaps.begin(), gaps.end(), [&](const auto &entry) {
-    return std::abs(entry.second[0] - entry.second[1]) > options_.settled_gap;
-  });
-  const auto is_same = [](const Pair &a, const Pair &b) {
-    return a.pass == b.pass && a.vertex == b.vertex && a.facet == b.facet;
-  };
+  const bool changed = std::any_of(gaps.begin(), gaps.end(),
+                                   [&](const auto &entry)
+                                   { return std::abs(entry.second[0] - entry.second[1]) > options_.settled_gap; });
+  const auto is_same = [](const Pair &a, const Pair &b)
+  { return a.pass == b.pass && a.vertex == b.vertex && a.facet == b.facet; };
   if (!std::equal(found.begin(), found.end(), pairs_.begin(), pairs_.end(), is_same))
     pairs_changed_ = true;
   pairs_ = std::move(found);
   return changed;
 }
 
-bool PenaltyContact::update(const Eigen::VectorXd &) { return std::exchange(pairs_changed_, false); }
+bool PenaltyContact::update(const Eigen::VectorXd &)
+{
+  return std::exchange(pairs_changed_, false);
+}
 
 double PenaltyContact::deepest_penetration(const Eigen::VectorXd &solution) const
 {

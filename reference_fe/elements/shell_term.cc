@@ -54,6 +54,8 @@ ShellTerm::ShellTerm(const ShellBody &body, std::shared_ptr<const HyperelasticLa
 
 void ShellTerm::use_mixed_integration_points(bool use)
 {
+  if (use == mixed_integration_points_)
+    return;
   mixed_integration_points_ = use;
   linearised_at_.resize(0);
 }
