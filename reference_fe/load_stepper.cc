@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace pelvireg::reference_fe
 {
 namespace
 {
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
 std::string likely_cause(NewtonStatus status)
 {
   switch (status)
@@ -37,7 +40,7 @@ StepEffort LoadStepper::start(double target)
 {
   StepEffort effort;
   model_.probe->prescribe_pressure(options_.start_pressure);
-  while (!try_step(0, effort))
+  while (!try_step(0, unlimited, effort))
   {
     cut(effort);
     model_.probe->prescribe_pressure(options_.start_pressure * motion_ / options_.motion);
@@ -49,7 +52,7 @@ StepEffort LoadStepper::start(double target)
     // Not past the first displacement wanted, nor more than a fivefold pressure at once.
     const double ratio = std::min({motion_ / motion, 4., 2 * options_.start_displacement * target / displacement});
     model_.probe->prescribe_pressure(current_.pressure + ratio * (current_.pressure - previous_.pressure));
-    if (!try_step(ratio, effort))
+    if (!try_step(ratio, unlimited, effort))
       cut(effort);
   }
   return effort;
@@ -61,21 +64,33 @@ StepEffort LoadStepper::advance_to(double target)
   while (current_.displacement < target)
   {
     const double last = current_.displacement - previous_.displacement;
-    const double left = (target - current_.displacement) / last;
     const double possible = motion_ / motion_between(previous_.solution, current_.solution);
-    // What is left is taken in equal parts.
-    const double ratio = left / std::ceil(left / possible - 0.1);
-    const bool is_last = ratio == left;
-    model_.probe->prescribe_displacement(is_last ? target : current_.displacement + ratio * last);
-    if (!try_step(ratio, effort))
+    const double left = last > 0 ? (target - current_.displacement) / last : unlimited;
+    // The last step of an increment lands on the displacement; the others go along the path, folds included.
+    const bool lands = left <= 1.1 * possible;
+    const double ratio = lands || left > 10 * possible ? std::min(left, possible) : left / std::ceil(left / possible);
+    control_step(lands, target, ratio);
+    if (!try_step(ratio, lands ? unlimited : target, effort))
       cut(effort);
-    else if (is_last)
+    else if (lands)
       break;
   }
   return effort;
 }
 
-bool LoadStepper::try_step(double ratio, StepEffort &effort)
+void LoadStepper::control_step(bool lands, double target, double ratio)
+{
+  if (lands)
+  {
+    model_.path->release();
+    model_.probe->prescribe_displacement(target);
+    return;
+  }
+  model_.probe->release();
+  model_.path->prescribe(current_.solution, current_.solution + ratio * (current_.solution - previous_.solution));
+}
+
+bool LoadStepper::try_step(double ratio, double largest_displacement, StepEffort &effort)
 {
   Eigen::VectorXd trial = current_.solution + ratio * (current_.solution - previous_.solution);
   const int iterations_before = effort.newton_iterations;
@@ -87,7 +102,8 @@ bool LoadStepper::try_step(double ratio, StepEffort &effort)
                              is_solved ? "step to" : "failed at", model_.probe->mean_displacement(trial),
                              trial[model_.pressure_unknown], motion, effort.newton_iterations - iterations_before,
                              last_result_.residual, last_result_.message));
-  if (!is_solved || !(motion <= options_.largest_motion))
+  if (!is_solved || !(motion <= options_.largest_motion) ||
+      model_.probe->mean_displacement(trial) > largest_displacement)
     return false;
   accept(std::move(trial));
   if (effort.newton_iterations - iterations_before <= 12)

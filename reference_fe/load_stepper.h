@@ -58,7 +58,9 @@ private:
     double pressure = 0;     ///< MPa
   };
   /// One step along the path: predictor current + ratio (current - previous), equilibrium, acceptance. False: cut.
-  bool try_step(double ratio, StepEffort &effort);
+  /// A step past `largest_displacement` (mm) is thrown away too.
+  bool try_step(double ratio, double largest_displacement, StepEffort &effort);
+  void control_step(bool lands, double target, double ratio);
   /// Equilibrium with settled contact pairs, from `trial`; false when Newton's method fails.
   bool solve(Eigen::VectorXd &trial, StepEffort &effort);
   /// Newton's method with the shells' mixed integration points, which take a third of the iterations; where they do

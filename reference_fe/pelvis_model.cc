@@ -219,6 +219,16 @@ void add_load(const dataset::Anatomy &anatomy, const Parts &parts, PelvisModel &
   if (!model.probe)
     throw InputError("no part is called 'vagina', whose displacement controls the load; name one so");
   model.system.add_term(model.probe);
+
+  std::vector<SurfaceNode> points;
+  for (const OuterSurface &surface : model.surfaces)
+    for (SurfaceNode vertex : surface.vertices)
+    {
+      vertex.side = 0;
+      points.push_back(vertex);
+    }
+  model.path = std::make_shared<PathControl>(std::move(points), model.pressure_unknown);
+  model.system.add_term(model.path);
 }
 } // namespace
 

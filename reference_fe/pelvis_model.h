@@ -3,6 +3,7 @@
 
 #include "reference_fe/constraints/cavity.h"
 #include "reference_fe/constraints/displacement_probe.h"
+#include "reference_fe/constraints/path_control.h"
 #include "reference_fe/constraints/tie.h"
 #include "reference_fe/contact/penalty_contact.h"
 #include "reference_fe/elements/shell_term.h"
@@ -28,6 +29,7 @@ struct PelvisModel
   int pressure_unknown = 0;
   std::vector<std::shared_ptr<ShellTerm>> shells;
   std::shared_ptr<DisplacementProbe> probe;
+  std::shared_ptr<PathControl> path;
   std::shared_ptr<PenaltyContact> contact; ///< null when nothing may touch
   std::vector<std::shared_ptr<Cavity>> cavities;
   std::vector<std::shared_ptr<Tie>> ties;

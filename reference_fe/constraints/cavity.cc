@@ -24,7 +24,8 @@ void differentiate_volume(const Eigen::Matrix3Xd &x, Eigen::VectorXd &gradient, 
   {
     const Eigen::Vector3d x0 = x * q.value, g1 = x * q.d_xi, g2 = x * q.d_eta;
     const double weight = q.weight / 3;
-    const Eigen::Vector3d by_value = weight * g1.cross(g2), by_xi = weight * g2.cross(x0), by_eta = weight * x0.cross(g1);
+    const Eigen::Vector3d by_value = weight * g1.cross(g2), by_xi = weight * g2.cross(x0),
+                          by_eta = weight * x0.cross(g1);
     const Eigen::Matrix3d s0 = weight * skew(x0), s1 = weight * skew(g1), s2 = weight * skew(g2);
     for (int i = 0; i < n; ++i)
       gradient.segment<3>(3 * i) += q.value[i] * by_value + q.d_xi[i] * by_xi + q.d_eta[i] * by_eta;

@@ -10,7 +10,10 @@ namespace pelvireg::reference_fe
 namespace
 {
 /// A vertex exactly in the plane counts as left of it: every triangle is cut in two edges or in none.
-bool is_left(double distance) { return distance >= 0; }
+bool is_left(double distance)
+{
+  return distance >= 0;
+}
 
 /// Where edge (a, b) crosses the plane: weights of a and b.
 Eigen::Vector2d crossing(double distance_a, double distance_b)
@@ -33,7 +36,8 @@ std::vector<ProbePoint> probe_points(const std::vector<SurfaceNode> &vertices, c
     std::vector<std::pair<ProbePoint *, Eigen::Vector3d>> ends;
     for (int k = 0; k < 3; ++k)
     {
-      const int a = std::min(triangles(t, k), triangles(t, (k + 1) % 3)), b = triangles(t, k) + triangles(t, (k + 1) % 3) - a;
+      const int a = std::min(triangles(t, k), triangles(t, (k + 1) % 3)),
+                b = triangles(t, k) + triangles(t, (k + 1) % 3) - a;
       if (is_left(distance(a)) == is_left(distance(b)))
         continue;
       ProbePoint &point = cut_edges[{a, b}];
@@ -71,13 +75,13 @@ DisplacementProbe::DisplacementProbe(std::vector<ProbePoint> points, const Eigen
 
 void DisplacementProbe::prescribe_pressure(double pressure)
 {
-  pressure_is_prescribed_ = true;
+  control_ = Control::pressure;
   target_ = pressure;
 }
 
 void DisplacementProbe::prescribe_displacement(double displacement)
 {
-  pressure_is_prescribed_ = false;
+  control_ = Control::displacement;
   target_ = displacement;
 }
 
@@ -110,15 +114,15 @@ void DisplacementProbe::evaluate(int item, const Eigen::VectorXd &solution, Loca
   unknowns(item, local.unknowns);
   local.energy = 0;
   const bool is_last = item == static_cast<int>(points_.size());
-  if (is_last || pressure_is_prescribed_)
+  if (is_last || control_ != Control::displacement)
   {
     const Eigen::Index n = static_cast<Eigen::Index>(local.unknowns.size());
     local.residual = Eigen::VectorXd::Zero(n);
     local.tangent = Eigen::MatrixXd::Zero(n, n);
-    if (!is_last)
+    if (!is_last || control_ == Control::none)
       return;
-    local.residual[0] = (pressure_is_prescribed_ ? solution[pressure_] : 0) - target_;
-    local.tangent(0, 0) = pressure_is_prescribed_ ? 1 : 0;
+    local.residual[0] = (control_ == Control::pressure ? solution[pressure_] : 0) - target_;
+    local.tangent(0, 0) = control_ == Control::pressure ? 1 : 0;
     return;
   }
   const ProbePoint &point = points_[item];

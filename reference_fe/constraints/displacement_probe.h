@@ -31,6 +31,8 @@ public:
 
   void prescribe_pressure(double pressure);         ///< MPa
   void prescribe_displacement(double displacement); ///< mm
+  /// Leave the row of the load factor to another term.
+  void release() { control_ = Control::none; }
   double mean_displacement(const Eigen::VectorXd &solution) const; ///< g, mm
 
   std::string name() const override { return "displacement probe"; }
@@ -44,7 +46,13 @@ private:
   std::vector<ProbePoint> points_;
   Eigen::Matrix3d projection_; ///< onto the plane
   int pressure_;
-  bool pressure_is_prescribed_ = true;
+  enum class Control
+  {
+    none,
+    pressure,
+    displacement
+  };
+  Control control_ = Control::pressure;
   double target_ = 0;
 };
 } // namespace pelvireg::reference_fe

@@ -119,8 +119,8 @@ void add_urethra(const Parameters &p, const ReferenceModel &model, std::vector<R
   }
 }
 
-/// The bladder lies on the pubic symphysis, a cushion of fat between: from each node that faces the bone four bars that
-/// spread like a pyramid, so that the cushion resists pressure and shear.
+/// The bladder lies on the pubic symphysis, a cushion of fat between: from each node that faces the bone five bars, one
+/// straight and four that spread like a pyramid: a cushion that resists pressure and shear and cannot snap through.
 void add_retropubic(const Parameters &p, const ReferenceModel &model, std::vector<ReferenceTruss> &bars)
 {
   const std::size_t first = bars.size();
@@ -131,7 +131,7 @@ void add_retropubic(const Parameters &p, const ReferenceModel &model, std::vecto
       const Vector3d node = shell.midsurface.row(n).transpose();
       const bool is_facing = shell.directors.row(n).dot(p.retropubic_normal) < -0.8;
       if (is_facing && std::abs(node.x()) < p.retropubic_half_width)
-        for (const Vector3d &aside : {left, up, Vector3d(-left), Vector3d(-up)})
+        for (const Vector3d &aside : {Vector3d(Vector3d::Zero()), left, up, Vector3d(-left), Vector3d(-up)})
           bars.push_back({"retropubic", "bladder", static_cast<std::int32_t>(n), "", -1,
                           node + p.retropubic_depth * (aside - p.retropubic_normal), 0,
                           p.material_of.at("retropubic")});
