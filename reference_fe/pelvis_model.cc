@@ -191,9 +191,9 @@ void add_contact(const ReferenceModel &reference, PelvisModel &model)
   std::vector<std::pair<int, int>> pairs;
   for (const auto &[a, b] : reference.contact_pairs)
     pairs.emplace_back(index.at(a), index.at(b));
-  // A wide onset spreads the traction over the coarse nodes of a soft wall: 0.04 MPa when the surfaces just meet.
+  // A wide onset spreads the traction over the coarse nodes of a soft wall: 0.12 MPa when the surfaces just meet.
   ContactOptions options;
-  options.penalty = 0.25;
+  options.penalty = 0.8;
   options.onset = 0.6;
   model.contact = std::make_shared<PenaltyContact>(std::move(surfaces), pairs, options);
   model.system.add_term(model.contact);
