@@ -110,10 +110,10 @@ inline dataset::ReferenceSolid block_solid(int n, const Eigen::Vector3d &size)
   for (int c = 0; c < n * n * n; ++c)
   {
     const Eigen::Vector3i base(2 * (c / (n * n)), 2 * (c / n % n), 2 * (c % n));
-    std::array<int, 3> order = {0, 1, 2};
+    std::array<int, 3> order = {{0, 1, 2}};
     do
     {
-      std::array<Eigen::Vector3i, 4> corner = {base, base, base, base};
+      std::array<Eigen::Vector3i, 4> corner = {{base, base, base, base}};
       for (int s = 0; s < 3; ++s)
         for (int t = s; t < 3; ++t)
           corner[t + 1][order[s]] += 2;
@@ -136,7 +136,7 @@ inline dataset::ReferenceSolid block_solid(int n, const Eigen::Vector3d &size)
           nodes[k] = cell[f[k]];
           nodes[3 + k] = node((corner[f[k]] + corner[f[(k + 1) % 3]]) / 2);
         }
-        std::array<int, 3> key = {nodes[0], nodes[1], nodes[2]};
+        std::array<int, 3> key = {{nodes[0], nodes[1], nodes[2]}};
         std::sort(key.begin(), key.end());
         if (const auto [entry, is_new] = faces.try_emplace(key, nodes); !is_new)
           faces.erase(entry);
