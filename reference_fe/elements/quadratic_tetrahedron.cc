@@ -27,6 +27,29 @@ ShapeGradient shape_gradient(const Eigen::Vector4d &b)
   return gradient;
 }
 
+/// The determinant of dx/db (six times the volume element); throws InputError unless positive.
+double positive_jacobian(const Eigen::Matrix3d &jacobian, const std::string &solid, Eigen::Index cell)
+{
+  const double det = jacobian.determinant();
+  if (!(det > 0))
+    throw InputError(fmt::format("solid '{}': tetrahedron {} is inverted or folded (Jacobian {:.3g} mm^3 at a node or "
+                                 "integration point, must be positive); refine or smooth its mesh",
+                                 solid, cell, det));
+  return det;
+}
+
+/// The integration points see nothing of a fold at a corner or a mid-side node (corners exchanged without their
+/// mid-side nodes, a mid-side node pulled too far): ask there too.
+void check_nodes(const Eigen::Matrix<double, 3, 10> &x, const std::string &solid, Eigen::Index cell)
+{
+  for (int i = 0; i < 4; ++i)
+    for (int j = i; j < 4; ++j)
+    {
+      const Eigen::Vector4d node = 0.5 * (Eigen::Vector4d::Unit(i) + Eigen::Vector4d::Unit(j));
+      positive_jacobian(x * shape_gradient(node), solid, cell);
+    }
+}
+
 /// Green-Lagrange strain of F, engineering shears.
 Voigt green_lagrange(const Eigen::Matrix3d &f)
 {
@@ -94,17 +117,14 @@ QuadraticTetrahedra::QuadraticTetrahedra(const dataset::ReferenceSolid &solid, c
     Eigen::Matrix<double, 3, 10> x;
     for (int n = 0; n < 10; ++n)
       x.col(n) = solid.points.row(cell.nodes[n]).transpose();
+    check_nodes(x, solid.name, i);
     for (int q = 0; q < 4; ++q)
     {
       Eigen::Vector4d b = Eigen::Vector4d::Constant(c);
       b[q] = a;
       const ShapeGradient reference = shape_gradient(b);
       const Eigen::Matrix3d jacobian = x * reference;
-      const double det = jacobian.determinant();
-      if (!(det > 0))
-        throw InputError(fmt::format("solid '{}': tetrahedron {} is inverted (Jacobian {:.3g} at an integration point, "
-                                     "must be positive); refine or smooth its mesh",
-                                     solid.name, i, det));
+      const double det = positive_jacobian(jacobian, solid.name, i);
       cell.points[q].gradient = (reference * jacobian.inverse()).transpose();
       cell.points[q].volume = det / 24;
       cell.volume += det / 24;

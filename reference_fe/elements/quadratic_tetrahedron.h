@@ -25,7 +25,8 @@ struct TetrahedronPoint
 class QuadraticTetrahedra : public Term
 {
 public:
-  /// Node n of the solid owns the unknowns first_unknown + 3 n … + 2. Throws InputError for an inverted cell.
+  /// Node n of the solid owns the unknowns first_unknown + 3 n … + 2. Throws InputError for a cell that is inverted or
+  /// folded at an integration point or node.
   QuadraticTetrahedra(const dataset::ReferenceSolid &solid, const dataset::YeohMaterial &material, int first_unknown);
 
   std::string name() const override { return name_; }

@@ -120,7 +120,8 @@ TEST_F(TwoPatches, ForcesOfBothSidesCancel)
   {
     contact.evaluate(item, solution, local);
     for (std::size_t i = 0; i < local.unknowns.size(); ++i)
-      (local.unknowns[i] < n_lower ? lower : upper)[local.unknowns[i] % 3] += local.residual[static_cast<Eigen::Index>(i)];
+      (local.unknowns[i] < n_lower ? lower : upper)[local.unknowns[i] % 3] +=
+          local.residual[static_cast<Eigen::Index>(i)];
   }
   EXPECT_LT((lower + upper).norm(), 1e-13);
   EXPECT_GT(upper.norm(), 0.01);

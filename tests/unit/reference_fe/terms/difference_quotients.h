@@ -1,4 +1,5 @@
-// Checks a term against difference quotients: the residual is the derivative of the energy, the tangent of the residual.
+// Checks a term against difference quotients: the residual is the derivative of the energy, the tangent of the
+// residual.
 #pragma once
 
 #include "reference_fe/term.h"

@@ -3,7 +3,10 @@
 
 #include "synthetic/dataset/anatomy.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -13,15 +16,16 @@
 
 namespace pelvireg::reference_fe
 {
-/// The surface of the cube [-1, 1]^3, n x n cells of 9 nodes a side, moved by `map`; directors are `normal` of the moved
-/// points. `open_top`: the side z = 1 is left out and its border listed as rim.
+/// The surface of the cube [-1, 1]^3, n x n cells of 9 nodes a side, moved by `map`; directors are `normal` of the
+/// moved points. `open_top`: the side z = 1 is left out and its border listed as rim.
 inline dataset::ReferenceShell cube_shell(int n, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &map,
                                           const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &normal,
                                           double thickness, bool open_top = false)
 {
   std::map<std::tuple<int, int, int>, int> numbers;
   std::vector<Eigen::Vector3d> corners;
-  const auto node = [&](const Eigen::Vector3i &at) {
+  const auto node = [&](const Eigen::Vector3i &at)
+  {
     const auto [entry, is_new] = numbers.try_emplace({at[0], at[1], at[2]}, static_cast<int>(corners.size()));
     if (is_new)
       corners.push_back(at.cast<double>() / n);
@@ -66,7 +70,8 @@ inline dataset::ReferenceShell cube_shell(int n, const std::function<Eigen::Vect
   if (open_top)
   {
     std::vector<std::int32_t> loop;
-    const auto walk = [&](Eigen::Vector3i at, const Eigen::Vector3i &step) {
+    const auto walk = [&](Eigen::Vector3i at, const Eigen::Vector3i &step)
+    {
       for (int i = 0; i < 2 * n; ++i, at += step)
         loop.push_back(node(at));
     };
@@ -82,7 +87,8 @@ inline dataset::ReferenceShell cube_shell(int n, const std::function<Eigen::Vect
 /// Closed sphere of mid-surface radius r.
 inline dataset::ReferenceShell sphere_shell(int n, double radius, double thickness)
 {
-  const auto direction = [](const Eigen::Vector3d &p) {
+  const auto direction = [](const Eigen::Vector3d &p)
+  {
     // Equal angles: tan(pi/4 t) spreads the cells evenly.
     return Eigen::Vector3d((p.array() * std::atan(1.)).tan().matrix().normalized());
   };
