@@ -49,6 +49,7 @@ Cavity::Cavity(std::string name, std::vector<SurfaceFace> faces, int pressure_un
     item_rest_volume_.push_back(face_volume(x));
     rest_volume_ += item_rest_volume_.back();
   }
+  held_volume_ = rest_volume_;
 }
 
 double Cavity::volume(const Eigen::VectorXd &solution) const
@@ -79,7 +80,8 @@ void Cavity::evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &lo
 
   Eigen::VectorXd force(n + 1);
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n + 1, n + 1);
-  force << -q * gradient, item_rest_volume_[item] - face_volume(x);
+  const double held = item_rest_volume_[item] * (held_volume_ / rest_volume_); // its share of V0
+  force << -q * gradient, held - face_volume(x);
   stiffness.topLeftCorner(n, n) = -q * hessian;
   stiffness.topRightCorner(n, 1) = -gradient;
   stiffness.bottomLeftCorner(1, n) = -gradient.transpose();
