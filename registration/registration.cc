@@ -88,6 +88,14 @@ Triangles wall_triangles(const Body &body)
   return walls;
 }
 
+/// The body with what holds it in this condition: without anatomical constraints an organ floats.
+Body held_body(Body body, bool use_attachments)
+{
+  if (is_organ(body) && !use_attachments)
+    body.fixed_nodes.clear();
+  return body;
+}
+
 /// True when the surface has points on both sides of the plane.
 bool plane_cuts(const Triangles &surface, const Points &positions, const Observation &observation)
 {
@@ -144,7 +152,7 @@ Registration::Implementation::Implementation(const Model &model, const Options &
 {
   for (const Body &body : model.bodies)
   {
-    bodies.emplace_back(body, options.time_step);
+    bodies.emplace_back(held_body(body, options.use_attachments), options.time_step);
     trees.emplace_back(wall_triangles(body), body.rest_positions);
     nodal_forces.push_back(Points::Zero(body.rest_positions.rows(), 3));
     if (is_organ(body) || options.use_attachments)

@@ -25,7 +25,7 @@ struct Body
   double youngs_modulus = 0; ///< MPa
   double poisson_ratio = 0.45;
   double density = 1.05e-9;     ///< t/mm^3
-  std::vector<int> fixed_nodes; ///< 0-based
+  std::vector<int> fixed_nodes; ///< 0-based; those of an organ are anatomical constraints (Options::use_attachments)
   Triangles outer_triangles;    ///< closed, outward; empty for a body that is never matched or attached to
   /// One flag a triangle: control points may be matched to it and attachments may hold on it. Caps are not.
   std::vector<char> is_wall;
@@ -69,7 +69,9 @@ struct Options
   /// carried, so it acts as damping and not as inertia. Of 0.02, 0.01 and 0.005 s the last is the first at which every
   /// outline of the trial motions settles within 0.3 mm in three steps, with and without attachments.
   double time_step = 0.005;
-  bool use_attachments = true;       ///< anatomical constraints chi and the bodies that only serve them
+  /// Anatomical constraints chi, the bodies that only serve them, and the fixed nodes of organs. An organ is a body
+  /// with outer triangles.
+  bool use_attachments = true;
   double max_match_distance = 30;    ///< mm: a control point whose nearest compatible triangle is farther is refused
   double min_normal_agreement = 0.5; ///< least cosine between the contour's and the triangle's in-plane normal
   /// mm/N, per sliding row. Rows carry about 1 N (5 N at most): 0.02 lets an outline lie off by about 0.02 mm, far

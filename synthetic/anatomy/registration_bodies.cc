@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -35,12 +36,21 @@ std::vector<Eigen::RowVector3i> cap_over(const Integers &loop)
   return triangles;
 }
 
+/// Surface, caps and fixed rims. The outer edge of an open end is held, as the reference holds it: the wall goes on
+/// there into the perineum, the anal margin or the colon (anatomy notes, 3). It may turn about the edge, in both
+/// models.
 void set_outer_surface(const TriangleMesh &surface, RegistrationBody &body)
 {
   std::vector<Eigen::RowVector3i> caps;
+  std::vector<std::int32_t> rims;
   for (const Integers &loop : boundary_loops(surface.triangles))
+  {
+    rims.insert(rims.end(), loop.begin(), loop.end());
     for (const Eigen::RowVector3i &triangle : cap_over(loop))
       caps.push_back(triangle);
+  }
+  std::sort(rims.begin(), rims.end());
+  body.fixed_nodes = Eigen::Map<const Integers>(rims.data(), static_cast<Eigen::Index>(rims.size()));
   const Eigen::Index n = surface.triangles.rows(), n_caps = static_cast<Eigen::Index>(caps.size());
   body.outer_triangles.resize(n + n_caps, 3);
   body.outer_triangles.topRows(n) = surface.triangles;

@@ -86,7 +86,9 @@ struct RegistrationBody
   double youngs_modulus = 0;  ///< MPa
   double poisson_ratio = 0.45;
   double density = 1.05e-9;   ///< t/mm^3
-  Integers fixed_nodes;       ///< far ends of ligaments and fasciae
+  /// Held in space: far ends of ligaments and fasciae; outer rims of the tubes' open ends, where the reference holds
+  /// them too. Like every boundary condition, none of them acts in no_boundary_conditions.
+  Integers fixed_nodes;
   /// Closed outward outer surface over `points`; caps use rim nodes only. Empty for grids.
   Triangles outer_triangles;
   Integers outer_region;      ///< SurfaceRegion of each outer triangle

@@ -152,6 +152,29 @@ TEST(Registration, LeavesTheBandsAtRestWithoutAttachments)
   EXPECT_GT((registration.positions(0) - model.bodies[0].rest_positions).rowwise().norm().minCoeff(), 5);
 }
 
+TEST(Registration, HoldsAnOrgansFixedNodesUnlessItIsToRunWithoutAttachments)
+{
+  Model model = two_organs_and_a_band();
+  for (int node = 0; node < model.bodies[1].rest_positions.rows(); ++node)
+    if (model.bodies[1].rest_positions(node, 2) < -50)
+      model.bodies[1].fixed_nodes.push_back(node);
+  ASSERT_GE(model.bodies[1].fixed_nodes.size(), 3u);
+  for (const bool use_attachments : {true, false})
+  {
+    Options options;
+    options.use_attachments = use_attachments;
+    Registration registration;
+    registration.prepare(model, options);
+    for (int step = 0; step < 9; ++step)
+      ASSERT_EQ(registration.update(moved_outlines(model, in_plane(1, 1), {0, 1})).status, StepStatus::ok);
+    for (const int node : model.bodies[1].fixed_nodes)
+    {
+      const double motion = (registration.positions(1) - model.bodies[1].rest_positions).row(node).norm();
+      EXPECT_EQ(motion == 0, use_attachments) << node;
+    }
+  }
+}
+
 TEST(Registration, TellsFacingWallsOfASlabApart)
 {
   // Top and bottom outline of a slab 4 mm thick have moved down by 3 mm: each is nearest to the other wall.
