@@ -66,7 +66,7 @@ void ShellCell::set_integration_points()
 {
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(7 * reference_->n_nodes);
   const ShellNodalValues nodal = nodal_values(midsurface_, director_, half_thickness_, rest);
-  for (int z = 0; z < 3; ++z)
+  for (int z = 0; z < reference_->n_zeta; ++z)
   {
     const SampledBase base = sample_base(nodal, reference_->integration, reference_->zeta[z], all_directions);
     for (Eigen::Index q = 0; q < reference_->weight.size(); ++q)

@@ -49,7 +49,7 @@ private:
   const ShellReferenceCell *reference_;
   Eigen::Matrix3Xd midsurface_, director_;
   Eigen::VectorXd half_thickness_;
-  Eigen::MatrixXd rest_metric_; ///< 6 x (3 n_integration), covariant, as the strains are assumed
+  Eigen::MatrixXd rest_metric_; ///< 6 x (n_zeta n_integration), covariant, as the strains are assumed
   std::vector<IntegrationPoint, Eigen::aligned_allocator<IntegrationPoint>> points_; ///< zeta slowest
 };
 } // namespace pelvireg::reference_fe

@@ -97,8 +97,8 @@ ShellReferenceCell::ShellReferenceCell(int order_) : order(order_), n_nodes((ord
     nodes.col(node) = Eigen::Vector2d(element.unit_support_point(node)[0], element.unit_support_point(node)[1]);
   samplings[3] = {shape_table(order, nodes), integration.value.transpose(), {{2, 2, 2}}, {2}};
 
-  const dealii::QGauss<1> through_thickness(3);
-  for (int k = 0; k < 3; ++k)
+  const dealii::QGauss<1> through_thickness(n_zeta);
+  for (int k = 0; k < n_zeta; ++k)
   {
     zeta[k] = 2 * through_thickness.point(k)[0] - 1;
     zeta_weight[k] = 2 * through_thickness.weight(k);

@@ -41,7 +41,7 @@ Eigen::Index count_columns(const ShellReferenceCell &reference)
 {
   Eigen::Index m = 0;
   for (const StrainSampling &sampling : reference.samplings)
-    m += 3 * static_cast<Eigen::Index>(sampling.directions.size()) * sampling.shape.n_points();
+    m += reference.n_zeta * static_cast<Eigen::Index>(sampling.directions.size()) * sampling.shape.n_points();
   return m;
 }
 
@@ -99,7 +99,7 @@ GeometricColumns collect_columns(const ShellReferenceCell &reference, const Assu
     columns.stretch[k].setZero(n, 2 * total);
   }
   Eigen::Index m = 0;
-  for (int z = 0; z < 3; ++z)
+  for (int z = 0; z < reference.n_zeta; ++z)
     for (std::size_t k = 0; k < reference.samplings.size(); ++k)
     {
       const StrainSampling &sampling = reference.samplings[k];
@@ -158,11 +158,11 @@ AssumedStrains assume_strains(const ShellReferenceCell &reference, const ShellNo
 {
   const Eigen::Index n_integration = reference.weight.size(), n_unknowns = 7 * reference.n_nodes;
   AssumedStrains assumed;
-  assumed.metric.resize(6, 3 * n_integration);
-  assumed.rows.resize(n_unknowns, 18 * n_integration);
+  assumed.metric.resize(6, reference.n_zeta * n_integration);
+  assumed.rows.resize(n_unknowns, 6 * reference.n_zeta * n_integration);
   Eigen::RowVectorXd metric;
   Eigen::MatrixXd rows;
-  for (int z = 0; z < 3; ++z)
+  for (int z = 0; z < reference.n_zeta; ++z)
     for (const StrainSampling &sampling : reference.samplings)
     {
       assumed.bases.push_back(sample_base(nodal, sampling.shape, reference.zeta[z], sampling.directions));

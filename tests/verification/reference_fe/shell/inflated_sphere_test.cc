@@ -1,12 +1,10 @@
 // Thick-walled incompressible sphere under inner pressure: p = int W'(lambda) / (lambda^3 - 1) dlambda from lambda_b to
 // lambda_a (Ogden, Non-Linear Elastic Deformations, 1984, section 5.3.2).
 #include "reference_fe/constraints/follower_pressure.h"
-#include "reference_fe/elements/shell_mesh.h"
 #include "reference_fe/elements/shell_term.h"
 #include "reference_fe/materials/yeoh.h"
 #include "reference_fe/newton_solver.h"
-
-#include <deal.II/grid/grid_generator.h>
+#include "tests/verification/reference_fe/shell/shell_benchmark.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -69,18 +67,15 @@ void hold(EquilibriumSystem &system, const ShellBody &body, int first)
 }
 
 /// Largest relative difference between the applied pressure and the closed form at the inner stretch reached.
-double largest_difference(double thickness, const Coefficients &c)
+double largest_difference(int refinements, double thickness, const Coefficients &c)
 {
   const double radius = 40, a = radius - thickness / 2, b = radius + thickness / 2;
-  dealii::Triangulation<2, 3> sphere;
-  dealii::GridGenerator::hyper_sphere(sphere, dealii::Point<3>(), radius);
-  sphere.refine_global(2);
-  const ShellBody body = shell_body(sphere, "sphere", 2, thickness);
+  const ShellBody body = sphere_shell(refinements, radius, thickness);
 
   EquilibriumSystem system;
   const int first = add_shell_unknowns(system, body);
   const int pressure = system.add_unknowns(1, {.name = "pressure"});
-  const auto law = std::make_shared<Yeoh>(c.c10, c.c20, c.c30, 2 * c.c10 * 1000);
+  const auto law = std::make_shared<Yeoh>(c.c10, c.c20, c.c30, 2 * c.c10 * 1e4);
   system.add_term(std::make_shared<ShellTerm>(body, law, first));
   system.add_term(std::make_shared<FollowerPressure>(inner_faces(body, first), pressure));
   system.fix(pressure);
@@ -106,16 +101,25 @@ double largest_difference(double thickness, const Coefficients &c)
   return largest;
 }
 
+// kappa/mu is 1e4: the closed form is incompressible, and at 1e3 the wall's own volume change costs 0.2 %. The thin
+// walls have 384 cells; what is left of the thick ones is the quadratic displacement through the wall.
+// With three integration points through the wall the sphere of 12 mm is 38 % too stiff (at kappa/mu 1e3).
 TEST(InflatedSphere, NeoHookeanMatchesTheClosedForm)
 {
-  EXPECT_LE(largest_difference(2, {0.1, 0, 0}), 2e-3);
-  EXPECT_LE(largest_difference(12, {0.1, 0, 0}), 2e-3);
+  EXPECT_LE(largest_difference(3, 2, {0.1, 0, 0}), 2e-3);
+  EXPECT_LE(largest_difference(2, 12, {0.1, 0, 0}), 2e-3);
 }
 
 TEST(InflatedSphere, YeohMatchesTheClosedForm)
 {
-  EXPECT_LE(largest_difference(2, {0.1, 0.05, 0.02}), 2e-3);
-  EXPECT_LE(largest_difference(12, {0.1, 0.05, 0.02}), 2e-3);
+  EXPECT_LE(largest_difference(3, 2, {0.1, 0.05, 0.02}), 1e-3);
+  EXPECT_LE(largest_difference(2, 12, {0.1, 0.05, 0.02}), 2e-3);
+}
+
+// The thickest wall of the pelvis: the vagina's, 3 mm on a tube of 5.5 mm.
+TEST(InflatedSphere, AWallOfHalfTheRadiusMatchesTheClosedForm)
+{
+  EXPECT_LE(largest_difference(2, 21.6, {0.1, 0.05, 0.02}), 1e-2);
 }
 } // namespace
 } // namespace pelvireg::reference_fe

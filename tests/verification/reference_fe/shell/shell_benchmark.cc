@@ -29,6 +29,14 @@ ShellBody structured_shell(int n1, int n2, int order, double thickness, const Su
   return body;
 }
 
+ShellBody sphere_shell(int refinements, double radius, double thickness)
+{
+  dealii::Triangulation<2, 3> sphere;
+  dealii::GridGenerator::hyper_sphere(sphere, dealii::Point<3>(), radius);
+  sphere.refine_global(refinements);
+  return shell_body(sphere, "sphere", 2, thickness);
+}
+
 std::vector<std::pair<int, double>> edge_weights(const ShellBody &body, const Eigen::Matrix2Xd &parameters,
                                                  const std::function<double(double, double)> &distance,
                                                  const std::function<double(double, double)> &along)

@@ -17,6 +17,9 @@ using SurfaceMap = std::function<Eigen::Vector3d(double, double)>;
 ShellBody structured_shell(int n1, int n2, int order, double thickness, const SurfaceMap &map,
                            Eigen::Matrix2Xd &parameters);
 
+/// Quadratic cells over a sphere about the origin, 6 * 4^refinements of them, directors outward.
+ShellBody sphere_shell(int refinements, double radius, double thickness);
+
 /// Weights of the nodes with |distance(s, t)| < 1e-9 for a force of 1 spread evenly over that edge. `along(s, t)`
 /// orders them; its cells are of equal length.
 std::vector<std::pair<int, double>> edge_weights(const ShellBody &body, const Eigen::Matrix2Xd &parameters,
