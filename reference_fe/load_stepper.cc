@@ -144,6 +144,7 @@ void LoadStepper::solve_equilibrium(Eigen::VectorXd &trial, StepEffort &effort)
   NewtonOptions newton;
   newton.residual_tolerance = options_.residual_tolerance;
   newton.max_iterations = options_.max_iterations;
+  newton.max_halvings = options_.max_halvings;
   for (const bool mixed : {true, false})
   {
     for (const std::shared_ptr<ShellTerm> &shell : model_.shells)

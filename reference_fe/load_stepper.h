@@ -19,6 +19,7 @@ struct LoadStepperOptions
   double least_motion = 1e-3;       ///< mm, steps that aim at less: the stepper gives up
   double close_residual = 0.1;      ///< N, a failed solution below it is not begun anew
   int max_iterations = 12;          ///< of Newton's method, a solution
+  int max_halvings = 2;             ///< a solution that needs shorter steps is lost: a shorter load step is cheaper
   int max_contact_searches = 6;     ///< repetitions of a step until the pairs in contact settle
   std::function<void(const std::string &)> log = {}; ///< one line a step; may be empty
 };

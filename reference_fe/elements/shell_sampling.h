@@ -41,13 +41,13 @@ struct AssumedStrains
 {
   std::vector<SampledBase> bases; ///< zeta slowest, then the four samplings
   Eigen::MatrixXd metric;         ///< 6 x (n_zeta n_integration), zeta slowest
-  Eigen::MatrixXd rows;           ///< 7n x (6 n_zeta n_integration): derivative of component c at point q is column 6 q + c
+  Eigen::MatrixXd rows; ///< 7n x (6 n_zeta n_integration): derivative of component c at point q is column 6 q + c
 };
 
 AssumedStrains assume_strains(const ShellReferenceCell &reference, const ShellNodalValues &nodal);
 
-/// Second derivatives of the assumed strains, contracted with the weighted stresses (6 x n_zeta n_integration, covariant
-/// pairs), added to `tangent` (7n x 7n).
+/// Second derivatives of the assumed strains, contracted with the weighted stresses (6 x n_zeta n_integration,
+/// covariant pairs), added to `tangent` (7n x 7n).
 void add_geometric_stiffness(const ShellReferenceCell &reference, const AssumedStrains &assumed,
                              const Eigen::MatrixXd &weighted_stress, Eigen::MatrixXd &tangent);
 } // namespace pelvireg::reference_fe
