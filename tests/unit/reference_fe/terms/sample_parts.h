@@ -96,26 +96,28 @@ inline dataset::ReferenceShell sphere_shell(int n, double radius, double thickne
       n, [=](const Eigen::Vector3d &p) { return Eigen::Vector3d(radius * direction(p)); }, direction, thickness);
 }
 
-/// Quadratic tetrahedra filling n^3 cubes of the box [0, size]^3, six a cube (Kuhn); boundary faces outward.
-inline dataset::ReferenceSolid block_solid(int n, const Eigen::Vector3d &size)
+/// Quadratic tetrahedra filling n[0] x n[1] x n[2] bricks of the box [0, size]^3, six a brick (Kuhn); boundary faces
+/// outward.
+inline dataset::ReferenceSolid block_solid(const Eigen::Vector3i &n, const Eigen::Vector3d &size)
 {
   dataset::ReferenceSolid solid;
   solid.name = "block";
   solid.material = "wall";
-  const int m = 2 * n + 1;
-  const auto node = [m](const Eigen::Vector3i &at) { return (at[0] * m + at[1]) * m + at[2]; };
-  solid.points.resize(m * m * m, 3);
-  for (int i = 0; i < m; ++i)
-    for (int j = 0; j < m; ++j)
-      for (int k = 0; k < m; ++k)
-        solid.points.row(node({i, j, k})) << size[0] * i / (2. * n), size[1] * j / (2. * n), size[2] * k / (2. * n);
+  const Eigen::Vector3i m = 2 * n + Eigen::Vector3i::Ones();
+  const auto node = [m](const Eigen::Vector3i &at) { return (at[0] * m[1] + at[1]) * m[2] + at[2]; };
+  solid.points.resize(m.prod(), 3);
+  for (int i = 0; i < m[0]; ++i)
+    for (int j = 0; j < m[1]; ++j)
+      for (int k = 0; k < m[2]; ++k)
+        solid.points.row(node({i, j, k})) =
+            (Eigen::Array3d(i, j, k) / (2. * n.cast<double>()).array() * size.array()).transpose();
   static constexpr int edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
   static constexpr int face[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
   std::vector<std::array<int, 10>> cells;
   std::map<std::array<int, 3>, std::array<int, 6>> faces;
-  for (int c = 0; c < n * n * n; ++c)
+  for (int c = 0; c < n.prod(); ++c)
   {
-    const Eigen::Vector3i base(2 * (c / (n * n)), 2 * (c / n % n), 2 * (c % n));
+    const Eigen::Vector3i base(2 * (c / (n[1] * n[2])), 2 * (c / n[2] % n[1]), 2 * (c % n[2]));
     std::array<int, 3> order = {{0, 1, 2}};
     do
     {
@@ -163,5 +165,10 @@ inline dataset::ReferenceSolid block_solid(int n, const Eigen::Vector3d &size)
   }
   solid.region = dataset::Integers::Zero(solid.faces.rows());
   return solid;
+}
+
+inline dataset::ReferenceSolid block_solid(int n, const Eigen::Vector3d &size)
+{
+  return block_solid(Eigen::Vector3i(n, n, n), size);
 }
 } // namespace pelvireg::reference_fe
