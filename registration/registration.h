@@ -127,7 +127,8 @@ struct PhaseTimes
   double summarise = 0; ///< residuals on a fresh matching
 };
 
-/// The registration. Not copyable; movable. prepare() allocates, update() does not in the steady state.
+/// The registration. Not copyable; movable. In the steady state update() allocates nothing of its own; CHOLMOD takes and
+/// frees a workspace of two blocks a body.
 class Registration
 {
 public:

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include <functional>
+
 namespace pelvireg::registration
 {
 namespace
@@ -43,7 +45,8 @@ SlidingMatch match_control_point(const TriangleTree &tree, const Points &positio
     const Eigen::Vector3d direction = in_plane_direction(triangle_normal(tree, positions, triangle), plane_normal);
     return !direction.isZero(0) && direction.dot(wanted) >= options.min_normal_agreement;
   };
-  const NearestTriangle nearest = tree.nearest(point, options.max_match_distance, positions, agrees);
+  const NearestTriangle nearest = tree.nearest(point, options.max_match_distance, positions,
+                                               std::cref(agrees)); // by reference: std::function would copy to the heap
   SlidingMatch match;
   if (nearest.triangle < 0)
     return match;

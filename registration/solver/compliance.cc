@@ -2,8 +2,19 @@
 
 #include <cblas.h>
 
+#include <cstddef>
+
 namespace pelvireg::registration
 {
+namespace
+{
+void require_size(std::vector<double> &scratch, int size)
+{
+  if (scratch.size() < static_cast<std::size_t>(size))
+    scratch.resize(size);
+}
+} // namespace
+
 void Compliance::compute(const SupernodalFactor &factor, const SparseRows &rows)
 {
   const int n_rows = rows.size();
@@ -37,30 +48,31 @@ void Compliance::eliminate(const Supernode &node, const std::vector<int> &active
 {
   const int n_active = static_cast<int>(active.size());
   const int n_below = node.n_rows - node.n_columns;
-  top_.resize(n_active, node.n_columns);
+  const auto column_of = [n_active](std::vector<double> &matrix, int c) { return matrix.data() + c * n_active; };
+  require_size(top_, n_active * node.n_columns);
   for (int c = 0; c < node.n_columns; ++c)
     for (int k = 0; k < n_active; ++k)
-      top_(k, c) = right_sides_(active[k], node.first_column + c);
+      column_of(top_, c)[k] = right_sides_(active[k], node.first_column + c);
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n_active, node.n_columns, 1.0,
               node.values, node.n_rows, top_.data(), n_active);
 
-  product_.resize(n_active, n_active);
+  require_size(product_, n_active * n_active);
   cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n_active, node.n_columns, 1.0, top_.data(), n_active, 0.0,
               product_.data(), n_active);
   for (int l = 0; l < n_active; ++l)
     for (int k = l; k < n_active; ++k)
-      result_(active[k], active[l]) += product_(k, l);
+      result_(active[k], active[l]) += column_of(product_, l)[k];
 
   if (n_below == 0)
     return;
-  below_.resize(n_active, n_below);
+  require_size(below_, n_active * n_below);
   cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n_active, n_below, node.n_columns, 1.0, top_.data(), n_active,
               node.values + node.n_columns, node.n_rows, 0.0, below_.data(), n_active);
   for (int r = 0; r < n_below; ++r)
   {
     auto column = right_sides_.col(node.rows[node.n_columns + r]);
     for (int k = 0; k < n_active; ++k)
-      column[active[k]] -= below_(k, r);
+      column[active[k]] -= column_of(below_, r)[k];
   }
 }
 } // namespace pelvireg::registration

@@ -44,6 +44,7 @@ private:
   Eigen::MatrixXd right_sides_;              ///< one column an unknown, one row a constraint row: H, then (L^-1 H^T)^T
   std::vector<std::vector<int>> reached_by_; ///< rows that reach each supernode, ascending
   std::vector<int> last_row_seen_;
-  Eigen::MatrixXd top_, below_, product_;
+  std::vector<double> top_, below_,
+      product_; ///< scratch of one supernode; they only grow, so that steps do not allocate
 };
 } // namespace pelvireg::registration

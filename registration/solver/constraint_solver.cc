@@ -1,8 +1,11 @@
 #include "registration/solver/constraint_solver.h"
 
-#include <Eigen/Dense>
+#include <cblas.h>
 
 #include <algorithm>
+
+// Cholesky factor of LAPACK, from OpenBLAS: some times faster than Eigen's on plain x86-64, and without allocations.
+extern "C" void dpotrf_(const char *triangle, const int *n, double *matrix, const int *stride, int *info);
 
 namespace pelvireg::registration
 {
@@ -35,16 +38,21 @@ bool ConstraintSolver::solve(double tolerance_mm, int max_sweeps)
   const double least = least_relative_compliance * system_.diagonal().mean();
   system_.diagonal() += compliances_.cwiseMax(least);
   factor_ = system_;
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(factor_);
-  if (cholesky.info() != Eigen::Success)
+  const int n = static_cast<int>(gaps_.size());
+  int failed = 0;
+  dpotrf_("L", &n, factor_.data(), &n, &failed);
+  if (failed != 0)
     return false;
   residual_ = gaps_;
   double last_error = residual_.cwiseAbs().maxCoeff();
   for (sweeps_ = 1; sweeps_ <= std::max(1, max_sweeps); ++sweeps_)
   {
-    cholesky.solveInPlace(residual_);
+    for (const CBLAS_TRANSPOSE transposed : {CblasNoTrans, CblasTrans})
+      cblas_dtrsv(CblasColMajor, CblasLower, transposed, CblasNonUnit, n, factor_.data(), n, residual_.data(), 1);
     multipliers_ += residual_;
-    residual_.noalias() = gaps_ - system_.selfadjointView<Eigen::Lower>() * multipliers_;
+    residual_ = gaps_;
+    cblas_dsymv(CblasColMajor, CblasLower, n, -1.0, system_.data(), n, multipliers_.data(), 1, 1.0, residual_.data(),
+                1);
     const double error = residual_.cwiseAbs().maxCoeff();
     if (!(error > tolerance_mm) || !(error < 0.5 * last_error))
       break;
