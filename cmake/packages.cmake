@@ -34,6 +34,3 @@ target_link_libraries(suitesparse INTERFACE ${CHOLMOD_LIBRARY} ${UMFPACK_LIBRARY
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
 endif()
-if(PELVIREG_BENCHMARKS)
-  find_package(benchmark REQUIRED)
-endif()
