@@ -26,6 +26,7 @@ inline Eigen::VectorXd scattered(int n, unsigned seed)
 inline double tangent_error(const Term &term, int item, const Eigen::VectorXd &solution, double step)
 {
   LocalSystem at, plus, minus;
+  term.unknowns(item, at.unknowns);
   term.evaluate(item, solution, at);
   double error = 0;
   for (std::size_t j = 0; j < at.unknowns.size(); ++j)
@@ -45,6 +46,7 @@ inline double tangent_error(const Term &term, int item, const Eigen::VectorXd &s
 inline double residual_error(const Term &term, int item, const Eigen::VectorXd &solution, double step)
 {
   LocalSystem at, plus, minus;
+  term.unknowns(item, at.unknowns);
   term.evaluate(item, solution, at);
   double error = 0;
   for (std::size_t j = 0; j < at.unknowns.size(); ++j)

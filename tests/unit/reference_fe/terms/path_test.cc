@@ -1,8 +1,10 @@
 // The two-bar truss of von Mises, pushed through its snap along its own path.
 #include "reference_fe/constraints/dead_load.h"
+#include "reference_fe/constraints/displacement_control.h"
 #include "reference_fe/constraints/path_control.h"
 #include "reference_fe/elements/truss.h"
 #include "reference_fe/newton_solver.h"
+#include "tests/unit/reference_fe/terms/difference_quotients.h"
 
 #include <gtest/gtest.h>
 
@@ -113,6 +115,22 @@ TEST(TwoBarTruss, AGivenLoadBeyondTheFoldHasNoEquilibriumOnThisSide)
     }
     EXPECT_EQ(converged && truss.height() > 0, factor < 1) << factor;
   }
+}
+
+TEST(LoadFactor, ItsRowsAndColumnsAreDerivatives)
+{
+  constexpr int factor = 6;
+  const Eigen::VectorXd x = scattered(7, 51);
+  SurfaceNode a, b;
+  b.first_unknown = 3;
+  PathControl path({a, b}, factor);
+  path.prescribe(scattered(7, 52), scattered(7, 53));
+  const DeadLoad load({{1, 3.}, {5, -2.}}, factor);
+  const DisplacementControl control(4, factor);
+  for (const Term *term :
+       {static_cast<const Term *>(&path), static_cast<const Term *>(&load), static_cast<const Term *>(&control)})
+    for (int item = 0; item < term->n_items(); ++item)
+      EXPECT_LT(tangent_error(*term, item, x, 1e-4), 1e-11) << term->name();
 }
 
 TEST(TwoBarTruss, TheStressOfABarIsThatOfAnIncompressibleYeohBlock)
