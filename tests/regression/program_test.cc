@@ -93,7 +93,7 @@ const std::vector<BadValue> bad_values = {
     {"\nwall = ", "\nwall = -", "wall"},
     {"\ntilt = ", "\ntilted = 1\ntilt = ", "tilted"},
     {"\ntarget_displacement = 3.6", "\ntarget_displacement = nan", "target_displacement"},
-    {"\nn_increments = 15", "\nn_increments = \"many\"", "n_increments"}};
+    {"\nn_increments = 8", "\nn_increments = \"many\"", "n_increments"}};
 
 std::string replaced(std::string text, const std::string &pattern, const std::string &replacement)
 {
