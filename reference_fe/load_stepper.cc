@@ -133,8 +133,13 @@ bool LoadStepper::solve(Eigen::VectorXd &trial, StepEffort &effort)
     solve_equilibrium(trial, effort);
     if (!last_result_.converged())
       return false;
-    if (!model_.contact || search == options_.max_contact_searches || !model_.contact->search(trial))
+    if (!model_.contact || !model_.contact->search(trial))
       return true;
+    if (search == options_.max_contact_searches)
+    {
+      ++effort.unsettled_steps;
+      return true;
+    }
   }
 }
 

@@ -30,6 +30,7 @@ struct StepEffort
   double residual = 0; ///< N, of the accepted state
   int newton_iterations = 0;
   int cuts = 0;
+  int unsettled_steps = 0; ///< accepted although contact pairs still changed after max_contact_searches
 };
 
 /// Quasi-static path with an unknown load factor: each step prescribes the mean vaginal in-plane displacement and finds

@@ -14,12 +14,13 @@ namespace pelvireg::reference_fe
 {
 namespace
 {
-std::string describe(int increment, int n_increments, const dataset::IncrementRecord &record)
+std::string describe(int increment, int n_increments, const dataset::IncrementRecord &record, int unsettled_steps)
 {
   return fmt::format("increment {} of {}: vagina {:.2f} mm, pressure {:.2f} kPa, {} iterations, {} cuts, penetration "
-                     "{:.3f} mm",
+                     "{:.3f} mm{}",
                      increment, n_increments, record.mean_vaginal_displacement, 1e3 * record.pressure,
-                     record.newton_iterations, record.cuts, record.max_penetration);
+                     record.newton_iterations, record.cuts, record.max_penetration,
+                     unsettled_steps > 0 ? fmt::format(", contact unsettled in {} steps", unsettled_steps) : "");
 }
 } // namespace
 
@@ -42,18 +43,21 @@ dataset::Truth solve_reference(const dataset::Anatomy &anatomy, const ReferenceO
   const int n = anatomy.reference.n_increments;
   for (int increment = 1; increment <= n; ++increment)
   {
+    StepEffort effort;
     try
     {
-      StepEffort effort = stepper.advance_to(anatomy.reference.target_displacement * increment / n);
+      effort = stepper.advance_to(anatomy.reference.target_displacement * increment / n);
       effort.newton_iterations += std::exchange(settling.newton_iterations, 0);
       effort.cuts += std::exchange(settling.cuts, 0);
+      effort.unsettled_steps += std::exchange(settling.unsettled_steps, 0);
       recorder.record(stepper.solution(), effort);
     }
     catch (const ComputationError &error)
     {
       throw ComputationError(fmt::format("increment {} of {}: {}", increment, n, error.what()));
     }
-    report(static_cast<double>(increment) / n, describe(increment, n, recorder.truth().increments.back()));
+    report(static_cast<double>(increment) / n,
+           describe(increment, n, recorder.truth().increments.back(), effort.unsettled_steps));
   }
   return recorder.truth();
 }
