@@ -6,6 +6,7 @@
 #include <vtkHDFReader.h>
 #include <vtkNew.h>
 
+#include <dlfcn.h>
 #include <fstream>
 
 namespace pelvireg::dataset::testing
@@ -20,6 +21,13 @@ bool is_loaded(const std::string &library)
       return true;
   return false;
 }
+
+/// The library that H5Fopen of this program comes from.
+std::string hdf5_library()
+{
+  Dl_info info;
+  return dladdr(reinterpret_cast<void *>(&H5Fopen), &info) ? info.dli_fname : "";
+}
 } // namespace
 
 TEST(Store, RoundTripsWithBothHdf5BuildsInOneProcess)
@@ -32,6 +40,7 @@ TEST(Store, RoundTripsWithBothHdf5BuildsInOneProcess)
   EXPECT_EQ(reader->CanReadFile((folder / "first.h5").c_str()), 0); // HDF5, but not VTK's
   save(load_truth(folder / "first.h5"), folder / "second.h5");
   EXPECT_EQ(bytes_of(folder / "first.h5"), bytes_of(folder / "second.h5"));
+  EXPECT_NE(hdf5_library().find("hdf5_serial"), std::string::npos) << hdf5_library();
   EXPECT_TRUE(is_loaded("libhdf5_openmpi"));
   EXPECT_TRUE(is_loaded("libhdf5_serial"));
   EXPECT_TRUE(is_loaded("libvtkIOHDF"));
