@@ -71,7 +71,7 @@ TEST(CaseFile, RefusesAMissingKey)
 TEST(CaseFile, RefusesAWrongType)
 {
   expect_complaint(altered("tilt = 3.0", "tilt = \"three\""), {"plane.tilt", "a string", "number"});
-  expect_complaint(altered("n_increments = 15", "n_increments = 1.5"), {"load.n_increments", "1.5", "integer"});
+  expect_complaint(altered("n_increments = 8", "n_increments = 1.5"), {"load.n_increments", "1.5", "integer"});
   expect_complaint(altered("far_point = [0.0, 5.0, -6.0]", "far_point = [0.0, 5.0]"),
                    {"urethra.far_point", "3 numbers", "array of 2"});
 }
