@@ -81,6 +81,13 @@ std::optional<int> wait_for(pid_t child, double time_limit_s)
   return std::nullopt;
 }
 
+/// Where xvfb-run begins to look for a free display. Each process has its own: a server that is shutting down takes the
+/// socket of one that has just started under the same number with it, and VTK aborts.
+std::string first_display()
+{
+  return std::to_string(100 + getpid() % 30000);
+}
+
 std::string last_line(const fs::path &file)
 {
   std::ifstream stream(file);
@@ -118,7 +125,7 @@ RenderOutcome render_in_child(const fs::path &result, const fs::path &folder, co
 
   std::vector<std::string> words;
   if (const auto xvfb_run = find_in_path("xvfb-run"))
-    words = {xvfb_run->string(), "-a", "-s", "-screen 0 1600x1200x24"};
+    words = {xvfb_run->string(), "-n", first_display(), "-a", "-s", "-screen 0 1600x1200x24"};
   else if (!std::getenv("DISPLAY"))
     return {false, "there is no X display and no xvfb-run; install the package xvfb."};
   words.insert(words.end(), {executable.string(), "render", result.string(), folder.string()});
