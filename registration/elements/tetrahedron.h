@@ -20,6 +20,9 @@ public:
   /// mm^3, negative when the element is inverted at rest.
   double volume() const { return volume_; }
 
+  /// Gradients of the shape functions at rest, 1/mm; column a belongs to node a.
+  const NodalVectors &gradients() const { return gradients_; }
+
   /// Share of the volume that node a carries, mm^3 (lumped mass = density x share).
   double volume_share(int) const { return volume_ / n_nodes; }
 

@@ -23,25 +23,14 @@ SymmetricBlockMatrix::SymmetricBlockMatrix(int n_blocks, const std::vector<std::
     block_rows_.insert(block_rows_.end(), rows.begin(), rows.end());
     block_starts_[column + 1] = static_cast<int>(block_rows_.size());
   }
-
-  column_starts_.push_back(0);
-  for (int column = 0; column < n_blocks; ++column)
-    for (int c = 0; c < 3; ++c)
-    {
-      for (const int row : rows_of[column])
-        for (int r = 0; r < 3; ++r)
-          row_indices_.push_back(3 * row + r);
-      column_starts_.push_back(static_cast<int>(row_indices_.size()));
-    }
-  values_.assign(row_indices_.size(), 0.0);
+  values_.assign(block_size * block_rows_.size(), 0.0);
 }
 
-BlockSlot SymmetricBlockMatrix::slot(int row, int column) const
+int SymmetricBlockMatrix::find(int row, int column) const
 {
   const auto first = block_rows_.begin() + block_starts_[column];
   const auto last = block_rows_.begin() + block_starts_[column + 1];
-  const int place = static_cast<int>(std::lower_bound(first, last, row) - first);
-  return {9 * block_starts_[column] + 3 * place, 3 * static_cast<int>(last - first)};
+  return static_cast<int>(std::lower_bound(first, last, row) - block_rows_.begin());
 }
 
 void SymmetricBlockMatrix::set_zero()
@@ -49,10 +38,10 @@ void SymmetricBlockMatrix::set_zero()
   std::fill(values_.begin(), values_.end(), 0.0);
 }
 
-void SymmetricBlockMatrix::add_to_diagonal(int block, double value)
+void SymmetricBlockMatrix::add_to_diagonal(int row, double value)
 {
-  const BlockSlot diagonal = slot(block, block);
-  for (int c = 0; c < 3; ++c)
-    values_[diagonal.offset + c * diagonal.stride + c] += value;
+  double *diagonal = values_.data() + block_size * block_starts_[row]; // the diagonal is the column's first block
+  for (const int entry : {0, 4, 8})
+    diagonal[entry] += value;
 }
 } // namespace pelvireg::registration

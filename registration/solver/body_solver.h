@@ -2,12 +2,12 @@
 #pragma once
 
 #include "registration/constraints/constraint_rows.h"
-#include "registration/elements/hexahedron.h"
-#include "registration/elements/tetrahedron.h"
 #include "registration/registration.h"
 #include "registration/solver/block_matrix.h"
 #include "registration/solver/compliance.h"
+#include "registration/solver/hexahedron_assembly.h"
 #include "registration/solver/supernodal_factor.h"
+#include "registration/solver/tetrahedron_assembly.h"
 
 #include <optional>
 #include <vector>
@@ -28,21 +28,22 @@ public:
   void assemble();
   /// False when A is not positive definite.
   bool factorise() { return n_unknowns() == 0 || factor_->factorise(matrix_); }
-  /// x_free = A^-1 b.
+  /// L^-1 b, all that the constraints need of the free motion A^-1 b.
   void predict_free_motion();
 
   /// Take the part of the constraint rows that touches this body; `body` is this body's index in them.
   void gather_rows(const ConstraintRows &rows, int body);
-  /// Its part of W = H A^-1 H^T over touching_rows().
+  /// Its part of W = H A^-1 H^T and H x_free over touching_rows(), after predict_free_motion().
   void compute_compliance();
   /// Global indices of the rows that touch this body, ascending.
   const std::vector<int> &touching_rows() const { return touching_rows_; }
   /// Lower triangle; size touching_rows().size().
   const Eigen::MatrixXd &compliance() const { return compliance_.result(); }
   /// (H x_free) of touching row k, mm.
-  double free_gap_change(int k) const;
+  double free_gap_change(int k) const { return compliance_.free_change(k); }
 
-  /// positions + x_free + A^-1 H^T lambda, into corrected_positions(); false when not finite.
+  /// positions + A^-1 (b + H^T lambda), into corrected_positions(); false when not finite. After compute_compliance(),
+  /// or with no rows.
   bool correct(const Eigen::VectorXd &multipliers);
   const Points &corrected_positions() const { return corrected_; }
   /// Make the corrected positions current.
@@ -50,41 +51,25 @@ public:
 
   int n_unknowns() const { return 3 * n_free_nodes_; }
   const SymmetricBlockMatrix &matrix() const { return matrix_; }
+  /// Values stored for the factor.
+  long n_factor_values() const { return factor_ ? factor_->n_stored_values() : 0; }
   /// b = -F(q) over the unknowns, N.
   const Eigen::VectorXd &load() const { return load_; }
   /// Index of the first of a node's three unknowns; -1 when the node is fixed.
   int first_unknown(int node) const { return first_unknown_[node]; }
 
 private:
-  /// One 3 x 3 block of one element's stiffness and its place in A.
-  struct Contribution
-  {
-    int a = 0, b = 0;
-    BlockSlot slot;
-  };
-  template <class Element> struct ElementGroup
-  {
-    std::vector<Element> elements;
-    std::vector<std::array<int, Element::n_nodes>> nodes;
-    std::vector<Contribution> contributions;
-    std::vector<int> contribution_starts{0};
-  };
-
-  template <class Element, class Connectivity>
-  void add_elements(ElementGroup<Element> &group, const Connectivity &cells, const Body &body);
-  template <class Element> void place_blocks(ElementGroup<Element> &group);
-  template <class Element> void assemble_group(const ElementGroup<Element> &group);
   void number_unknowns(const Body &body);
 
   Points positions_, corrected_;
-  ElementGroup<Tetrahedron> tetrahedra_;
-  ElementGroup<Hexahedron> hexahedra_;
   int n_free_nodes_ = 0;
   std::vector<int> first_unknown_;
   std::vector<double> inertia_; ///< m / h^2 of each node, N/mm
   SymmetricBlockMatrix matrix_;
+  std::optional<TetrahedronAssembly> tetrahedra_;
+  std::optional<HexahedronAssembly> hexahedra_;
   std::optional<SupernodalFactor> factor_;
-  Eigen::VectorXd load_, free_motion_, correction_;
+  Eigen::VectorXd load_, reduced_load_, correction_;
   std::vector<int> touching_rows_;
   SparseRows rows_;
   Compliance compliance_;

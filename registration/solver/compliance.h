@@ -25,26 +25,46 @@ struct SparseRows
   }
 };
 
-/// Computes W = (L^-1 H^T)^T (L^-1 H^T) and visits, for each row, only the supernodes on the paths of the elimination
-/// tree from the row's non-zeros to the root: everywhere else L^-1 H^T is zero (Gilbert & Peierls, SIAM J. Sci. Stat.
-/// Comput. 9, 1988). All work in a supernode is dense (BLAS 3) over the rows that reach it.
+/// Computes W = Z^T Z, Z = L^-1 H^T, and visits for each row only the supernodes on the paths of the elimination tree
+/// from the row's non-zeros to the root: everywhere else Z is zero (Gilbert & Peierls, SIAM J. Sci. Stat. Comput. 9,
+/// 1988). Rows that start close to each other in the tree share most of their paths: they are taken in groups of
+/// kernels::width, so that all work is on full registers.
 class Compliance
 {
 public:
-  void compute(const SupernodalFactor &factor, const SparseRows &rows);
+  /// `load` is L^-1 b: H A^-1 b = Z^T (L^-1 b) comes along.
+  void compute(const SupernodalFactor &factor, const SparseRows &rows, const Eigen::VectorXd &load);
 
   /// Lower triangle is set; rows.size() square; mm/N.
   const Eigen::MatrixXd &result() const { return result_; }
 
+  /// H A^-1 b of row k, mm.
+  double free_change(int k) const { return free_changes_.data()[place_[k]]; }
+
+  /// x <- x + Z factors: L^-1 H^T factors without another pass over L. `factor` as in compute(); one factor a row, N.
+  template <class Factors>
+  void add_combination(const SupernodalFactor &factor, const Factors &factors, Eigen::VectorXd &x)
+  {
+    for (std::size_t k = 0; k < place_.size(); ++k)
+      factors_.data()[place_[k]] = factors(static_cast<int>(k));
+    add_combination(factor, x);
+  }
+
 private:
+  void group_rows(const SupernodalFactor &factor, const SparseRows &rows);
   void mark_reach(const SupernodalFactor &factor, const SparseRows &rows);
-  void eliminate(const Supernode &node, const std::vector<int> &active);
+  void set_right_sides(const SupernodalFactor &factor, const SparseRows &rows);
+  void set_result();
+  kernels::RightSides sides_at(int supernode) const;
+  void add_combination(const SupernodalFactor &factor, Eigen::VectorXd &x) const;
 
   Eigen::MatrixXd result_;
-  Eigen::MatrixXd right_sides_;              ///< one column an unknown, one row a constraint row: H, then (L^-1 H^T)^T
-  std::vector<std::vector<int>> reached_by_; ///< rows that reach each supernode, ascending
-  std::vector<int> last_row_seen_;
-  std::vector<double> top_, below_,
-      product_; ///< scratch of one supernode; they only grow, so that steps do not allocate
+  int n_groups_ = 0;
+  std::vector<int> first_supernode_; ///< of each row
+  std::vector<int> order_, place_;   ///< order_[place] = row; place = group * width + lane
+  std::vector<std::vector<int>> reached_by_; ///< groups that reach each supernode, ascending
+  std::vector<int> last_group_seen_;
+  std::vector<double *> group_values_;
+  kernels::AlignedArray right_sides_, products_, free_changes_, factors_;
 };
 } // namespace pelvireg::registration

@@ -1,200 +1,191 @@
 #include "registration/solver/supernodal_factor.h"
 
-#include <cblas.h>
-#include <cholmod.h>
-
 #include <algorithm>
-#include <stdexcept>
 
 namespace pelvireg::registration
 {
-namespace
+using kernels::padded;
+using kernels::Run;
+using kernels::SupernodeColumns;
+
+SupernodalFactor::SupernodalFactor(const SymmetricBlockMatrix &matrix, const kernels::Kernels &kernels)
+    : kernels_(&kernels), n_rows_(matrix.n_rows())
 {
-cholmod_sparse lower_view(int n, std::vector<int> &starts, std::vector<int> &rows, double *values)
-{
-  cholmod_sparse view{};
-  view.nrow = view.ncol = n;
-  view.nzmax = rows.size();
-  view.p = starts.data();
-  view.i = rows.data();
-  view.x = values;
-  view.stype = -1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = values ? CHOLMOD_REAL : CHOLMOD_PATTERN;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = 1;
-  return view;
+  const SupernodeTree tree = analyse(matrix);
+  make_fronts(tree);
+  make_runs(tree);
+  place_updates();
+  place_blocks(matrix);
 }
 
-void quieten(cholmod_common &common)
+void SupernodalFactor::make_fronts(const SupernodeTree &tree)
 {
-  common.print = 0;
-  common.error_handler = nullptr;
-}
-} // namespace
-
-std::vector<int> fill_reducing_order(int n_blocks, const std::vector<std::vector<int>> &cliques)
-{
-  std::vector<std::vector<int>> rows_of(n_blocks);
-  for (const std::vector<int> &clique : cliques)
-    for (const int column : clique)
-      for (const int row : clique)
-        if (row >= column)
-          rows_of[column].push_back(row);
-  std::vector<int> starts{0}, rows;
-  for (std::vector<int> &column : rows_of)
-  {
-    std::sort(column.begin(), column.end());
-    column.erase(std::unique(column.begin(), column.end()), column.end());
-    rows.insert(rows.end(), column.begin(), column.end());
-    starts.push_back(static_cast<int>(rows.size()));
-  }
-  cholmod_common common;
-  cholmod_start(&common);
-  quieten(common);
-  cholmod_sparse graph = lower_view(n_blocks, starts, rows, nullptr);
-  cholmod_factor *symbolic = cholmod_analyze(&graph, &common);
-  std::vector<int> order(n_blocks);
-  if (symbolic)
-    std::copy_n(static_cast<const int *>(symbolic->Perm), n_blocks, order.begin());
-  const bool failed = symbolic == nullptr;
-  cholmod_free_factor(&symbolic, &common);
-  cholmod_finish(&common);
-  if (failed)
-    throw std::runtime_error("registration: CHOLMOD could not order a matrix of " + std::to_string(n_blocks) +
-                             " nodes; the memory is exhausted or the library is broken");
-  return order;
-}
-
-struct SupernodalFactor::Cholmod
-{
-  Cholmod()
-  {
-    cholmod_start(&common);
-    quieten(common);
-    common.supernodal = CHOLMOD_SUPERNODAL;
-    common.nmethods = 1;
-    common.method[0].ordering = CHOLMOD_NATURAL;
-    common.postorder = 0; // the order given is postordered, and the columns must stay where they are
-    common.final_ll = 1;
-  }
-  ~Cholmod()
-  {
-    cholmod_free_factor(&factor, &common);
-    cholmod_finish(&common);
-  }
-  Cholmod(const Cholmod &) = delete;
-  Cholmod &operator=(const Cholmod &) = delete;
-
-  /// CHOLMOD takes no const pointers, but changes neither pattern nor values.
-  static cholmod_sparse view(const SymmetricBlockMatrix &matrix)
-  {
-    return lower_view(matrix.n_rows(), const_cast<std::vector<int> &>(matrix.column_starts()),
-                      const_cast<std::vector<int> &>(matrix.row_indices()),
-                      const_cast<double *>(matrix.values().data()));
-  }
-
-  cholmod_common common{};
-  cholmod_factor *factor = nullptr;
-};
-
-SupernodalFactor::SupernodalFactor(const SymmetricBlockMatrix &matrix)
-    : cholmod_(std::make_unique<Cholmod>()), n_rows_(matrix.n_rows())
-{
-  cholmod_sparse view = Cholmod::view(matrix);
-  cholmod_->factor = cholmod_analyze(&view, &cholmod_->common);
-  if (!cholmod_->factor || !cholmod_->factor->is_super)
-    throw std::runtime_error("registration: CHOLMOD could not analyse a matrix of " + std::to_string(n_rows_) +
-                             " rows; the memory is exhausted or the library lacks its supernodal part");
-  n_supernodes_ = static_cast<int>(cholmod_->factor->nsuper);
+  fronts_.resize(tree.size());
   supernode_of_.resize(n_rows_);
-  parent_.assign(n_supernodes_, -1);
-  int most_rows = 0;
-  for (int s = 0; s < n_supernodes_; ++s)
+  long n_values = 0;
+  for (int s = 0; s < tree.size(); ++s)
   {
-    const Supernode node = supernode(s);
-    most_rows = std::max(most_rows, node.n_rows);
-    std::fill_n(supernode_of_.begin() + node.first_column, node.n_columns, s);
+    Front &front = fronts_[s];
+    front.first_column = 3 * tree.first_block[s];
+    front.n_columns = 3 * tree.first_block[s + 1] - front.first_column;
+    front.first_row = static_cast<int>(rows_.size());
+    for (int k = tree.below_starts[s]; k < tree.below_starts[s + 1]; ++k)
+      for (int axis = 0; axis < 3; ++axis)
+        rows_.push_back(3 * tree.below_rows[k] + axis);
+    front.n_below = static_cast<int>(rows_.size()) - front.first_row;
+    front.parent = tree.parent[s];
+    front.values = n_values;
+    n_values += static_cast<long>(front.n_columns) * (padded(front.n_columns) + padded(front.n_below));
+    std::fill_n(supernode_of_.begin() + front.first_column, front.n_columns, s);
   }
-  for (int s = 0; s < n_supernodes_; ++s)
+  std::vector<std::vector<int>> children(tree.size());
+  for (int s = 0; s < tree.size(); ++s)
+    if (tree.parent[s] >= 0)
+      children[tree.parent[s]].push_back(s);
+  for (int s = 0; s < tree.size(); ++s)
   {
-    const Supernode node = supernode(s);
-    if (node.n_rows > node.n_columns)
-      parent_[s] = supernode_of_[node.rows[node.n_columns]];
+    fronts_[s].first_child = static_cast<int>(children_.size());
+    children_.insert(children_.end(), children[s].begin(), children[s].end());
+    fronts_[s].last_child = static_cast<int>(children_.size());
   }
-  gathered_.resize(most_rows);
+  values_.require(n_values);
+  inverse_diagonal_.require(n_rows_);
 }
 
-SupernodalFactor::~SupernodalFactor() = default;
-SupernodalFactor::SupernodalFactor(SupernodalFactor &&) noexcept = default;
-SupernodalFactor &SupernodalFactor::operator=(SupernodalFactor &&) noexcept = default;
+void SupernodalFactor::make_runs(const SupernodeTree &tree)
+{
+  for (int s = 0; s < tree.size(); ++s)
+  {
+    Front &front = fronts_[s];
+    front.first_run = front.split = front.last_run = static_cast<int>(runs_.size());
+    if (front.parent < 0)
+      continue;
+    const Front &parent = fronts_[front.parent];
+    const auto first = tree.below_rows.begin() + tree.below_starts[front.parent];
+    const auto last = tree.below_rows.begin() + tree.below_starts[front.parent + 1];
+    bool is_below = false;
+    for (int k = tree.below_starts[s]; k < tree.below_starts[s + 1]; ++k)
+    {
+      const int row = tree.below_rows[k], source = 3 * (k - tree.below_starts[s]);
+      const bool was_below = is_below;
+      is_below = 3 * row >= parent.first_column + parent.n_columns;
+      const int target =
+          is_below ? padded(parent.n_columns) + 3 * static_cast<int>(std::lower_bound(first, last, row) - first)
+                   : 3 * row - parent.first_column;
+      const bool has_run = static_cast<int>(runs_.size()) > front.first_run;
+      if (has_run && was_below == is_below && runs_.back().target + runs_.back().length == target)
+        runs_.back().length += 3;
+      else
+        runs_.push_back({source, 3, target});
+      front.last_run = static_cast<int>(runs_.size());
+      if (!is_below)
+        front.split = front.last_run;
+    }
+  }
+}
+
+void SupernodalFactor::place_updates()
+{
+  for (int s = n_supernodes() - 1; s >= 0; --s)
+    fronts_[s].stack = fronts_[s].parent < 0 ? 0 : 1 - fronts_[fronts_[s].parent].stack;
+  const auto size = [](const Front &front) { return static_cast<long>(front.n_below) * padded(front.n_below); };
+  long top[2] = {0, 0}, most[2] = {0, 0};
+  for (Front &front : fronts_)
+  {
+    front.update = top[front.stack];
+    top[front.stack] += size(front);
+    most[front.stack] = std::max(most[front.stack], top[front.stack]);
+    for (int c = front.first_child; c < front.last_child; ++c)
+      top[1 - front.stack] -= size(fronts_[children_[c]]);
+  }
+  for (const int stack : {0, 1})
+    stacks_[stack].require(most[stack]);
+}
+
+void SupernodalFactor::place_blocks(const SymmetricBlockMatrix &matrix)
+{
+  block_places_.resize(matrix.block_rows().size());
+  for (int column = 0; column < matrix.n_blocks(); ++column)
+  {
+    const Front &front = fronts_[supernode_of_[3 * column]];
+    const SupernodeColumns columns = this->columns(supernode_of_[3 * column]);
+    for (int k = matrix.block_starts()[column]; k < matrix.block_starts()[column + 1]; ++k)
+    {
+      const int row = 3 * matrix.block_rows()[k];
+      const bool is_below = row >= front.first_column + front.n_columns;
+      const int *place = is_below ? std::lower_bound(columns.rows, columns.rows + front.n_below, row) : nullptr;
+      block_places_[k] = (3 * column - front.first_column) * columns.stride() +
+                         (is_below ? padded(front.n_columns) + static_cast<int>(place - columns.rows)
+                                   : row - front.first_column);
+    }
+  }
+}
+
+SupernodeColumns SupernodalFactor::columns(int s) const
+{
+  const Front &front = fronts_[s];
+  return {values_.data() + front.values, inverse_diagonal_.data() + front.first_column, front.n_columns, front.n_below,
+          rows_.data() + front.first_row};
+}
+
+void SupernodalFactor::gather(const SymmetricBlockMatrix &matrix, const Front &front)
+{
+  const long stride = padded(front.n_columns) + padded(front.n_below);
+  double *values = values_.data() + front.values;
+  std::fill_n(values, stride * front.n_columns, 0.0);
+  const int first = front.first_column / 3, last = first + front.n_columns / 3;
+  for (int k = matrix.block_starts()[first]; k < matrix.block_starts()[last]; ++k)
+    for (int c = 0; c < 3; ++c)
+      std::copy_n(matrix.values() + SymmetricBlockMatrix::block_size * k + 3 * c, 3,
+                  values + block_places_[k] + c * stride);
+}
 
 bool SupernodalFactor::factorise(const SymmetricBlockMatrix &matrix)
 {
-  cholmod_sparse view = Cholmod::view(matrix);
-  const bool ran = cholmod_factorize(&view, cholmod_->factor, &cholmod_->common);
-  return ran && cholmod_->common.status == CHOLMOD_OK && cholmod_->factor->minor == cholmod_->factor->n;
+  for (int s = 0; s < n_supernodes(); ++s)
+  {
+    const Front &front = fronts_[s];
+    const SupernodeColumns columns = this->columns(s);
+    const auto add_children = [&](bool to_columns)
+    {
+      for (int c = front.first_child; c < front.last_child; ++c)
+      {
+        const Front &child = fronts_[children_[c]];
+        const int split = child.split - child.first_run, n_runs = child.last_run - child.first_run;
+        kernels_->extend_add(update_of(child), padded(child.n_below), runs_.data() + child.first_run,
+                             to_columns ? 0 : split, to_columns ? split : n_runs, n_runs,
+                             to_columns ? columns.values : update_of(front),
+                             to_columns ? columns.stride() : padded(front.n_below),
+                             to_columns ? 0 : padded(front.n_columns));
+      }
+    };
+    gather(matrix, front);
+    add_children(true);
+    if (!kernels_->factorise_columns(columns))
+      return false;
+    if (front.n_below == 0)
+      continue;
+    kernels_->update_matrix(columns, update_of(front));
+    add_children(false);
+  }
+  return true;
 }
 
-Supernode SupernodalFactor::supernode(int s) const
+void SupernodalFactor::solve_lower(double *x) const
 {
-  const cholmod_factor &factor = *cholmod_->factor;
-  const int *super = static_cast<const int *>(factor.super);
-  const int *row_starts = static_cast<const int *>(factor.pi);
-  const int *value_starts = static_cast<const int *>(factor.px);
-  Supernode node;
-  node.first_column = super[s];
-  node.n_columns = super[s + 1] - super[s];
-  node.n_rows = row_starts[s + 1] - row_starts[s];
-  node.rows = static_cast<const int *>(factor.s) + row_starts[s];
-  if (factor.xtype == CHOLMOD_REAL)
-    node.values = static_cast<const double *>(factor.x) + value_starts[s];
-  return node;
+  for (int s = 0; s < n_supernodes(); ++s)
+    kernels_->solve_lower(columns(s), x + first_column(s), x);
 }
 
-long SupernodalFactor::n_stored_values() const
+void SupernodalFactor::solve_upper(double *x) const
 {
-  return static_cast<long>(cholmod_->factor->xsize);
+  for (int s = n_supernodes() - 1; s >= 0; --s)
+    kernels_->solve_upper(columns(s), x + first_column(s), x);
 }
 
-void SupernodalFactor::solve(Eigen::Ref<Eigen::VectorXd> x)
+void SupernodalFactor::solve(Eigen::Ref<Eigen::VectorXd> x) const
 {
   solve_lower(x.data());
   solve_upper(x.data());
-}
-
-void SupernodalFactor::solve_lower(double *x)
-{
-  for (int s = 0; s < n_supernodes_; ++s)
-  {
-    const Supernode node = supernode(s);
-    double *top = x + node.first_column;
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, node.n_columns, node.values, node.n_rows, top,
-                1);
-    const int n_below = node.n_rows - node.n_columns;
-    if (n_below == 0)
-      continue;
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n_below, node.n_columns, 1.0, node.values + node.n_columns, node.n_rows,
-                top, 1, 0.0, gathered_.data(), 1);
-    for (int r = 0; r < n_below; ++r)
-      x[node.rows[node.n_columns + r]] -= gathered_[r];
-  }
-}
-
-void SupernodalFactor::solve_upper(double *x)
-{
-  for (int s = n_supernodes_ - 1; s >= 0; --s)
-  {
-    const Supernode node = supernode(s);
-    double *top = x + node.first_column;
-    const int n_below = node.n_rows - node.n_columns;
-    for (int r = 0; r < n_below; ++r)
-      gathered_[r] = x[node.rows[node.n_columns + r]];
-    if (n_below > 0)
-      cblas_dgemv(CblasColMajor, CblasTrans, n_below, node.n_columns, -1.0, node.values + node.n_columns, node.n_rows,
-                  gathered_.data(), 1, 1.0, top, 1);
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, node.n_columns, node.values, node.n_rows, top, 1);
-  }
 }
 } // namespace pelvireg::registration

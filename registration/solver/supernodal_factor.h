@@ -1,63 +1,80 @@
-// Supernodal Cholesky factor of one body's matrix (CHOLMOD), with access to its supernodes.
+// Multifrontal Cholesky factor of one body's matrix.
 #pragma once
 
+#include "registration/kernels/aligned_array.h"
+#include "registration/kernels/kernels.h"
 #include "registration/solver/block_matrix.h"
+#include "registration/solver/supernode_tree.h"
 
-#include <memory>
+#include <Eigen/Core>
+
 #include <vector>
 
 namespace pelvireg::registration
 {
-/// Order of the blocks that keeps the factor sparse: result[k] is the block eliminated k-th (CHOLMOD's best of AMD and
-/// METIS, postordered). `cliques` as in SymmetricBlockMatrix.
-std::vector<int> fill_reducing_order(int n_blocks, const std::vector<std::vector<int>> &cliques);
-
-/// One supernode: consecutive columns of L with the same rows. `values` is column-major, `n_rows` x `n_columns`; its
-/// first n_columns rows are the dense lower triangle of the diagonal block.
-struct Supernode
-{
-  int first_column = 0;
-  int n_columns = 0;
-  int n_rows = 0;
-  const int *rows = nullptr; ///< indices of all n_rows rows, ascending
-  const double *values = nullptr;
-};
-
-/// A = L L^T. The symbolic phase runs once, at construction; the matrix must already be in a fill-reducing order.
+/// A = L L^T by the multifrontal method (Duff & Reid, ACM TOMS 9, 1983): a supernode's columns are gathered from A and
+/// from its children's update matrices, factorised densely, and leave an update matrix for its parent. The symbolic
+/// phase, all memory and all index lists are made once, at construction; the numeric phase allocates nothing.
 class SupernodalFactor
 {
 public:
-  explicit SupernodalFactor(const SymmetricBlockMatrix &matrix);
-  ~SupernodalFactor();
-  SupernodalFactor(SupernodalFactor &&) noexcept;
-  SupernodalFactor &operator=(SupernodalFactor &&) noexcept;
+  /// The matrix must already be in a fill-reducing, postordered order.
+  explicit SupernodalFactor(const SymmetricBlockMatrix &matrix,
+                            const kernels::Kernels &kernels = kernels::best());
 
   /// Numeric phase. False when the matrix is not positive definite to round-off or not finite; solve nothing then.
   /// The matrix must have the pattern of the constructor's.
   bool factorise(const SymmetricBlockMatrix &matrix);
 
   int n_rows() const { return n_rows_; }
-  int n_supernodes() const { return n_supernodes_; }
-  Supernode supernode(int s) const;
+  int n_supernodes() const { return static_cast<int>(fronts_.size()); }
+  int first_column(int s) const { return fronts_[s].first_column; }
+  kernels::SupernodeColumns columns(int s) const;
   int supernode_of(int column) const { return supernode_of_[column]; }
   /// The supernode that s updates next on its way to the root; -1 at a root.
-  int parent(int s) const { return parent_[s]; }
-  /// Non-zeros stored in L.
-  long n_stored_values() const;
+  int parent(int s) const { return fronts_[s].parent; }
+  const kernels::Kernels &kernels() const { return *kernels_; }
+  /// Values stored for L, the zeros that fill its dense blocks included.
+  long n_stored_values() const { return static_cast<long>(values_.size()); }
 
-  /// x <- A^-1 x, x of length n_rows().
-  void solve(Eigen::Ref<Eigen::VectorXd> x);
+  /// x <- L^-1 x and x <- L^-T x, x of length n_rows().
+  void solve_lower(double *x) const;
+  void solve_upper(double *x) const;
+  /// x <- A^-1 x.
+  void solve(Eigen::Ref<Eigen::VectorXd> x) const;
 
 private:
-  struct Cholmod;
-  void solve_lower(double *x);
-  void solve_upper(double *x);
+  struct Front
+  {
+    int first_column = 0, n_columns = 0;
+    int first_row = 0, n_below = 0; ///< range of rows_
+    int parent = -1;
+    int first_child = 0, last_child = 0; ///< range of children_
+    /// Range of runs_ that carries the update matrix to the parent; those before `split` go to its columns.
+    int first_run = 0, split = 0, last_run = 0;
+    long values = 0; ///< place in values_
+    int stack = 0;
+    long update = 0; ///< place of the update matrix in stacks_[stack]
+  };
 
-  std::unique_ptr<Cholmod> cholmod_;
+  void make_fronts(const SupernodeTree &tree);
+  void make_runs(const SupernodeTree &tree);
+  void place_updates();
+  void place_blocks(const SymmetricBlockMatrix &matrix);
+  void gather(const SymmetricBlockMatrix &matrix, const Front &front);
+  double *update_of(const Front &front) const { return stacks_[front.stack].data() + front.update; }
+
+  const kernels::Kernels *kernels_;
   int n_rows_ = 0;
-  int n_supernodes_ = 0;
-  std::vector<int> supernode_of_;
-  std::vector<int> parent_;
-  std::vector<double> gathered_; ///< rows below a diagonal block, for the solves
+  std::vector<Front> fronts_;
+  std::vector<int> supernode_of_; ///< of a column
+  std::vector<int> rows_;         ///< below the diagonal blocks, of all fronts
+  std::vector<int> children_;
+  std::vector<kernels::Run> runs_;
+  std::vector<int> block_places_; ///< in its front's columns, of every block of A
+  kernels::AlignedArray values_, inverse_diagonal_;
+  /// Update matrices that wait for their parents, last in first out: those of even and of odd depth apart, so that a
+  /// front's own matrix does not bury its children's.
+  kernels::AlignedArray stacks_[2];
 };
 } // namespace pelvireg::registration

@@ -15,11 +15,11 @@ namespace
 Eigen::MatrixXd dense(const SymmetricBlockMatrix &matrix)
 {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(matrix.n_rows(), matrix.n_rows());
-  for (int c = 0; c < matrix.n_rows(); ++c)
-    for (int k = matrix.column_starts()[c]; k < matrix.column_starts()[c + 1]; ++k)
-      if (const int r = matrix.row_indices()[k]; r >= c)
-        result(r, c) = result(c, r) = matrix.values()[k];
-  return result;
+  for (int c = 0; c < matrix.n_blocks(); ++c)
+    for (int k = matrix.block_starts()[c]; k < matrix.block_starts()[c + 1]; ++k)
+      result.block<3, 3>(3 * matrix.block_rows()[k], 3 * c) =
+          Eigen::Map<const Eigen::Matrix3d>(matrix.values() + SymmetricBlockMatrix::block_size * k);
+  return result.selfadjointView<Eigen::Lower>();
 }
 
 struct Fixture
