@@ -166,6 +166,18 @@ void check_attachment(const Model &model, const Attachment &attachment)
           "' has no wall triangle to hold on; mark some of its outer triangles as wall");
 }
 
+void check_point_attachment(const Model &model, const PointAttachment &attachment)
+{
+  const std::string where = "point attachment '" + attachment.name + "'";
+  const int n_bodies = static_cast<int>(model.bodies.size());
+  require(attachment.body >= 0 && attachment.body < n_bodies, where, ": body ", attachment.body,
+          " does not exist, must lie in [0, ", n_bodies, ")");
+  check_list(attachment.nodes, model.bodies[attachment.body].rest_positions.rows(), where + ", nodes");
+  check_points(where, attachment.nodes.size(), attachment.points);
+  require(attachment.compliance >= 0 && std::isfinite(attachment.compliance), where, ": compliance is ",
+          attachment.compliance, " mm/N, must be finite and not negative");
+}
+
 void check_body(const Body &body)
 {
   const std::string where = "body '" + body.name + "'";
@@ -182,6 +194,13 @@ void check_body(const Body &body)
 }
 } // namespace
 
+void check_points(const std::string &where, std::size_t n, const Points &points)
+{
+  require(points.rows() == static_cast<Eigen::Index>(n), where, ": has ", points.rows(), " points for ", n,
+          " nodes, must have one each");
+  require(points.allFinite(), where, ": a point is not finite; give coordinates in mm");
+}
+
 void check_model(const Model &model)
 {
   require(!model.bodies.empty(), "the model has no body; give it at least one");
@@ -189,5 +208,7 @@ void check_model(const Model &model)
     check_body(body);
   for (const Attachment &attachment : model.attachments)
     check_attachment(model, attachment);
+  for (const PointAttachment &attachment : model.point_attachments)
+    check_point_attachment(model, attachment);
 }
 } // namespace pelvireg::registration

@@ -1,6 +1,7 @@
 #include "registration/registration.h"
 
 #include "registration/constraints/attachment.h"
+#include "registration/constraints/point_attachment.h"
 #include "registration/constraints/sliding.h"
 #include "registration/model_check.h"
 #include "registration/solver/body_solver.h"
@@ -136,6 +137,8 @@ struct Registration::Implementation
   std::vector<TriangleTree> trees; ///< wall triangles, one a body
   std::vector<int> active;         ///< bodies that take part, the largest first
   std::vector<AttachedNode> attached_nodes;
+  std::vector<std::size_t> n_held_nodes; ///< of every point attachment, used or not
+  std::vector<std::vector<HeldNode>> held_nodes; ///< of every point attachment; empty ones when they are not used
   BodyThreads threads;
 
   std::vector<Match> matches;
@@ -148,8 +151,11 @@ struct Registration::Implementation
 };
 
 Registration::Implementation::Implementation(const Model &model, const Options &opts)
-    : options(opts), threads(opts.n_threads), succeeded(model.bodies.size(), 1)
+    : options(opts), held_nodes(model.point_attachments.size()), threads(opts.n_threads),
+      succeeded(model.bodies.size(), 1)
 {
+  for (const PointAttachment &attachment : model.point_attachments)
+    n_held_nodes.push_back(attachment.nodes.size());
   for (const Body &body : model.bodies)
   {
     bodies.emplace_back(held_body(body, options.use_attachments), options.time_step);
@@ -168,6 +174,8 @@ Registration::Implementation::Implementation(const Model &model, const Options &
         bind_attachment(attachment, model.bodies, trees[attachment.body_b], options.attachment_compliance);
     attached_nodes.insert(attached_nodes.end(), bound.begin(), bound.end());
   }
+  for (std::size_t k = 0; k < model.point_attachments.size(); ++k)
+    held_nodes[k] = hold_nodes(model.point_attachments[k], options.attachment_compliance);
 }
 
 StepSummary Registration::Implementation::update(const Observation &observation)
@@ -186,7 +194,9 @@ StepSummary Registration::Implementation::update(const Observation &observation)
   match_outlines(observation);
   linearise_constraints(summary);
   times.match = watch.lap();
-  if (summary.accepted_control_points == 0)
+  const bool has_held_nodes =
+      std::any_of(held_nodes.begin(), held_nodes.end(), [](const auto &nodes) { return !nodes.empty(); });
+  if (summary.accepted_control_points == 0 && !has_held_nodes)
     return fail(StepStatus::no_control_points);
 
   threads.run(active, [this](int body) { bodies[body].assemble(); });
@@ -263,6 +273,9 @@ void Registration::Implementation::linearise_constraints(StepSummary &summary)
   for (const AttachedNode &node : attached_nodes)
     add_attachment_rows(node, attachment_gap(node, bodies[node.body_a].positions(), bodies[node.body_b].positions()),
                         rows);
+  for (const std::vector<HeldNode> &nodes : held_nodes)
+    for (const HeldNode &node : nodes)
+      add_held_rows(node, bodies[node.body].positions(), rows);
 }
 
 bool Registration::Implementation::factorise_bodies()
@@ -338,6 +351,10 @@ void Registration::Implementation::measure_residuals(const Observation &observat
     summary.attachment_residual =
         std::max(summary.attachment_residual,
                  attachment_gap(node, bodies[node.body_a].positions(), bodies[node.body_b].positions()).norm());
+  for (const std::vector<HeldNode> &nodes : held_nodes)
+    for (const HeldNode &node : nodes)
+      summary.attachment_residual =
+          std::max(summary.attachment_residual, held_gap(node, bodies[node.body].positions()).norm());
 }
 
 Registration::Registration() = default;
@@ -358,6 +375,33 @@ StepSummary Registration::update(const Observation &observation)
   if (!implementation_)
     throw std::logic_error("registration: update() was called before prepare(); prepare a model first");
   return implementation_->update(observation);
+}
+
+void Registration::move_points(int attachment, const Points &points)
+{
+  if (!implementation_)
+    throw std::logic_error("registration: move_points() was called before prepare(); prepare a model first");
+  const int n = static_cast<int>(implementation_->n_held_nodes.size());
+  if (attachment < 0 || attachment >= n)
+    throw std::invalid_argument("registration: point attachment " + std::to_string(attachment) +
+                                " does not exist, must lie in [0, " + std::to_string(n) + ")");
+  check_points("point attachment " + std::to_string(attachment), implementation_->n_held_nodes[attachment], points);
+  std::vector<HeldNode> &nodes = implementation_->held_nodes[attachment];
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    nodes[k].point = points.row(static_cast<Eigen::Index>(k)).transpose();
+}
+
+SystemSize Registration::system_size() const
+{
+  if (!implementation_)
+    throw std::logic_error("registration: system_size() was called before prepare(); prepare a model first");
+  SystemSize size;
+  for (const int body : implementation_->active)
+  {
+    size.n_unknowns += implementation_->bodies[body].n_unknowns();
+    size.n_factor_values += implementation_->bodies[body].n_factor_values();
+  }
+  return size;
 }
 
 const Points &Registration::positions(int body) const

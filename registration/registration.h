@@ -41,10 +41,21 @@ struct Attachment
   double compliance = 0; ///< mm/N, per row
 };
 
+/// Nodes of one body held at points in space: landmarks, bone that moves, a handle. Bilateral, 3 rows a node.
+struct PointAttachment
+{
+  std::string name;
+  int body = 0;
+  std::vector<int> nodes;
+  Points points;         ///< one a node, mm; Registration::move_points() moves them
+  double compliance = 0; ///< mm/N, per row
+};
+
 struct Model
 {
   std::vector<Body> bodies;
   std::vector<Attachment> attachments;
+  std::vector<PointAttachment> point_attachments;
 };
 
 /// Control points of one organ in the image plane.
@@ -90,7 +101,8 @@ struct Options
 enum class StepStatus
 {
   ok,
-  no_control_points,    ///< no control point was offered or accepted: nothing drives the step, positions unchanged
+  no_control_points,    ///< no control point was offered or accepted, and the model has no point attachment in use:
+                        ///< nothing drives the step, positions unchanged
   not_finite,           ///< NaN in the observation or the solution: positions unchanged
   factorisation_failed, ///< positions unchanged
   invalid_observation ///< unknown body, body without outer surface, unequal counts or a plane normal that is not unit:
@@ -127,8 +139,14 @@ struct PhaseTimes
   double summarise = 0; ///< residuals on a fresh matching
 };
 
-/// The registration. Not copyable; movable. In the steady state update() allocates nothing of its own; CHOLMOD takes and
-/// frees a workspace of two blocks a body.
+/// Size of the prepared system, over the bodies that take part.
+struct SystemSize
+{
+  int n_unknowns = 0;
+  long n_factor_values = 0; ///< doubles stored for the Cholesky factors, 8 bytes each
+};
+
+/// The registration. Not copyable; movable. In the steady state update() allocates nothing.
 class Registration
 {
 public:
@@ -144,6 +162,14 @@ public:
   /// One simulation step (paper, equations 7 to 10). prepare() must have been called. A numerical failure is a status,
   /// never an exception; the positions keep the last valid state.
   StepSummary update(const Observation &observation);
+
+  /// Move the points of Model::point_attachments[attachment] for the next steps: n x 3, mm, as many as it has nodes.
+  /// Throws std::invalid_argument with one sentence for an unknown attachment, another number of points or a point that
+  /// is not finite.
+  void move_points(int attachment, const Points &points);
+
+  /// Unknowns and memory of the prepared model.
+  SystemSize system_size() const;
 
   /// Current positions of a body (index into Model::bodies), n x 3, mm. A body that takes no part stays at rest.
   const Points &positions(int body) const;

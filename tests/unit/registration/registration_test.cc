@@ -130,6 +130,66 @@ TEST(Registration, HoldsTheAttachmentsToAMillionthOfAMillimetre)
     EXPECT_EQ(band_motion.row(node).norm(), 0);
 }
 
+TEST(Registration, BringsNodesToThePointsThatHoldThemAndFollowsThePoints)
+{
+  Model model;
+  model.bodies.push_back(scene::hollow_ellipsoid({25, 30, 20}, 3, 3));
+  PointAttachment held{"handles", 0, {0, 3, 5}, Points(3, 3), 0};
+  for (int k = 0; k < 3; ++k)
+    held.points.row(k) = model.bodies[0].rest_positions.row(held.nodes[k]) + Eigen::RowVector3d(1, -2, 3);
+  model.point_attachments.push_back(held);
+  Registration registration;
+  registration.prepare(model, {});
+  for (int step = 0; step < 400; ++step) // no outline: the points alone drive the step
+    ASSERT_EQ(registration.update(Observation()).status, StepStatus::ok);
+  const Points moved = model.bodies[0].rest_positions.rowwise() + Eigen::RowVector3d(1, -2, 3);
+  EXPECT_LE((registration.positions(0) - moved).rowwise().norm().maxCoeff(), 1e-3); // three points: a rigid motion
+
+  held.points.row(1) += Eigen::RowVector3d(0, 0, 1);
+  registration.move_points(0, held.points);
+  const StepSummary summary = registration.update(Observation());
+  EXPECT_LE(summary.attachment_residual, 1e-6);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_LE((registration.positions(0).row(held.nodes[k]) - held.points.row(k)).norm(), 1e-6);
+}
+
+TEST(Registration, LeavesPointAttachmentsOutWithTheOtherAnatomicalConstraints)
+{
+  Model model = two_organs_and_a_band();
+  Points far(1, 3);
+  far << 0, 0, 100;
+  model.point_attachments.push_back({"far", 0, {0}, far, 0});
+  Options options;
+  options.use_attachments = false;
+  Registration registration;
+  registration.prepare(model, options);
+  EXPECT_EQ(registration.update(moved_outlines(model, in_plane(1, 1))).attachment_residual, 0);
+  registration.move_points(0, far); // known, though not in use
+}
+
+TEST(Registration, NamesTheFaultOfPoints)
+{
+  Model model = two_organs_and_a_band();
+  model.point_attachments.push_back({"handle", 0, {0, 1}, Points::Zero(1, 3), 0});
+  EXPECT_NE(prepare_message(model).find("point attachment 'handle': has 1 points for 2 nodes"), std::string::npos);
+  model.point_attachments[0].points = Points::Constant(2, 3, std::numeric_limits<double>::infinity());
+  EXPECT_NE(prepare_message(model).find("a point is not finite"), std::string::npos);
+  model.point_attachments[0].points.setZero();
+  model.point_attachments[0].body = 3;
+  EXPECT_NE(prepare_message(model).find("body 3 does not exist"), std::string::npos);
+  model.point_attachments[0].body = 0;
+  model.point_attachments[0].nodes[1] = -1;
+  EXPECT_NE(prepare_message(model).find("nodes: index -1"), std::string::npos);
+  model.point_attachments[0].nodes[1] = 1;
+  model.point_attachments[0].compliance = -1;
+  EXPECT_NE(prepare_message(model).find("compliance is -1"), std::string::npos);
+  model.point_attachments[0].compliance = 0;
+  Registration registration;
+  registration.prepare(model, {});
+  EXPECT_THROW(registration.move_points(1, Points::Zero(2, 3)), std::invalid_argument);
+  EXPECT_THROW(registration.move_points(0, Points::Zero(3, 3)), std::invalid_argument);
+}
+
 TEST(Registration, LeavesTheBandsAtRestWithoutAttachments)
 {
   const Model model = two_organs_and_a_band();
