@@ -140,4 +140,11 @@ OuterSurface outer_surface(const dataset::ReferenceSolid &solid, int first_unkno
   fill(triangles, &renumbered, surface);
   return surface;
 }
+
+int table_rank(const std::string &part)
+{
+  std::vector<std::string> order = dataset::organ_names;
+  order.push_back("pelvic_floor");
+  return static_cast<int>(std::find(order.begin(), order.end(), part) - order.begin());
+}
 } // namespace pelvireg::reference_fe

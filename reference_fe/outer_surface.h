@@ -35,4 +35,7 @@ std::vector<int> oriented_rim(const dataset::ReferenceShell &shell, const datase
 OuterSurface outer_surface(const dataset::ReferenceShell &shell, int first_unknown);
 /// Boundary of a solid: its boundary nodes in ascending order.
 OuterSurface outer_surface(const dataset::ReferenceSolid &solid, int first_unknown);
+
+/// Where the surface of a part stands in truth.h5: organs in the order of every table, the pelvic floor, other parts.
+int table_rank(const std::string &part);
 } // namespace pelvireg::reference_fe

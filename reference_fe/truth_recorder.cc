@@ -9,14 +9,11 @@ namespace
 {
 std::vector<const OuterSurface *> in_table_order(const std::vector<OuterSurface> &surfaces)
 {
-  std::vector<std::string> order = dataset::organ_names;
-  order.push_back("pelvic_floor");
-  const auto rank = [&](const OuterSurface *surface)
-  { return std::find(order.begin(), order.end(), surface->part) - order.begin(); };
   std::vector<const OuterSurface *> sorted;
   for (const OuterSurface &surface : surfaces)
     sorted.push_back(&surface);
-  std::stable_sort(sorted.begin(), sorted.end(), [&](auto *a, auto *b) { return rank(a) < rank(b); });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](auto *a, auto *b) { return table_rank(a->part) < table_rank(b->part); });
   return sorted;
 }
 

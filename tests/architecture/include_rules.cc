@@ -31,7 +31,7 @@ const std::vector<DirectionRule> direction_rules = {
     // The program links everything, but only through each folder's public entries.
     {"validation/cli/",
      {"validation/", "synthetic/dataset/", "registration/registration.h", "reference_fe/reference.h",
-      "synthetic/anatomy/case.h", "synthetic/observation/observe.h"}},
+      "reference_fe/decks/decks.h", "synthetic/anatomy/case.h", "synthetic/observation/observe.h"}},
     {"validation/",
      {"validation/metrics/", "validation/runner/", "validation/regression/", "validation/report/", "synthetic/dataset/",
       "registration/registration.h"}},

@@ -160,9 +160,71 @@ TEST_F(Program, RefusesWhatItDoesNotKnow)
   EXPECT_THAT(files(), IsEmpty());
 }
 
+namespace
+{
+/// The ids of the nodes of a deck.
+std::vector<int> node_ids(const std::string &deck)
+{
+  std::vector<int> ids;
+  std::istringstream lines(deck.substr(deck.find("*NODE")));
+  std::string line;
+  for (std::getline(lines, line); std::getline(lines, line) && line.front() != '*';)
+    ids.push_back(std::stoi(line));
+  return ids;
+}
+
+/// The table of a rigid translation by (0, 0.1, -0.2) mm an increment.
+std::string translation(const std::vector<int> &ids, int n_increments)
+{
+  std::ostringstream table;
+  table << "increment,node,u1,u2,u3\n";
+  for (int i = 1; i <= n_increments; ++i)
+    for (const int id : ids)
+      table << i << "," << id << ",0," << 0.1 * i << "," << -0.2 * i << "\n";
+  return table.str();
+}
+} // namespace
+
+TEST_F(Program, TakesTheMotionThatAnotherProgramGaveItsDeckAsTruth)
+{
+  ASSERT_EQ(call("anatomy quick --out a").status, 0);
+  expect_refused("export a --format abaqus", "--pressure");
+  expect_refused("export a --format abaqus --pressure nan", "nan");
+  expect_refused("export a --format abaqus --pressure 0.001 --layers 0", "--layers");
+  expect_refused("export a --format abaqus --pressure 0.001 --parts spleen", "spleen");
+  expect_refused("export a --format vtk --pressure 0.001", "--pressure");
+  EXPECT_FALSE(fs::exists(folder_ / "a" / "abaqus"));
+  ASSERT_EQ(call("export a --format abaqus --pressure 0.001").status, 0);
+  const std::vector<int> ids = node_ids(content_of(folder_ / "a" / "abaqus" / "pelvis.inp"));
+
+  std::ofstream(folder_ / "short.csv") << translation(ids, 7);
+  expect_refused("import a --from short.csv", "8 times");
+  std::ofstream(folder_ / "other.csv") << translation({1, 2, 3}, 8);
+  expect_refused("import a --from other.csv", "3 nodes");
+  std::ofstream(folder_ / "bad.frd") << "not a result";
+  expect_refused("import a --from bad.frd", "no nodes");
+  expect_refused("import a --from none.csv", "none.csv");
+  expect_refused("import a --from short.csv --pressure inf", "inf");
+  expect_refused("import a --from a/anatomy.h5", ".frd");
+  EXPECT_FALSE(fs::exists(folder_ / "a" / "truth.h5"));
+
+  std::ofstream(folder_ / "good.csv") << translation(ids, 8);
+  const Outcome first = call("import a --from good.csv --pressure 0.001");
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_THAT(content_of(folder_ / "a" / "truth.h5"), HasSubstr("imported displacement table (SHA-256 "));
+  EXPECT_THAT(call("import a --from good.csv --pressure 0.001").out, HasSubstr("import: up to date"));
+  for (const char *stage : {"observe a", "register a --condition no_boundary_conditions", "evaluate a"})
+  {
+    const Outcome next = call(stage);
+    EXPECT_EQ(next.status, 0) << stage << ": " << next.err;
+  }
+  EXPECT_THAT(content_of(folder_ / "a" / "manifest.json"), HasSubstr("\"import\""));
+}
+
 TEST_F(Program, HasHelpWithExamplesForEveryCommand)
 {
-  for (const char *command : {"", "run", "anatomy", "reference", "observe", "register", "evaluate", "report", "export"})
+  for (const char *command :
+       {"", "run", "anatomy", "reference", "observe", "register", "evaluate", "report", "export", "import"})
   {
     const Outcome outcome = call(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;

@@ -21,6 +21,7 @@ void add_case_commands(CLI::App &program, Invocation &invocation);  ///< cases, 
 void add_stage_commands(CLI::App &program, Invocation &invocation); ///< reference, observe, register, evaluate, report
 void add_run_command(CLI::App &program, Invocation &invocation);    ///< run
 void add_export_command(CLI::App &program, Invocation &invocation); ///< export
+void add_import_command(CLI::App &program, Invocation &invocation); ///< import
 
 /// The name of a case in files: a built-in name as it is, a path without folder and extension.
 std::string case_label(const std::string &name_or_path);

@@ -52,6 +52,11 @@ const StageRecord *Manifest::maker_of(const std::string &file, std::string *stag
   return nullptr;
 }
 
+void Manifest::forget(const std::string &file)
+{
+  std::erase_if(stages, [&](const auto &stage) { return stage.second.outputs.contains(file); });
+}
+
 Manifest load_manifest(const std::filesystem::path &directory)
 {
   const std::filesystem::path file = directory / file_name;

@@ -28,6 +28,8 @@ struct Manifest
 
   /// The stage that made a file, or null.
   const StageRecord *maker_of(const std::string &file, std::string *stage_name = nullptr) const;
+  /// A file is about to have a new maker (truth.h5: reference or import): the stage that made it counts as not run.
+  void forget(const std::string &file);
 };
 
 /// An empty manifest when the directory has none. Throws InputError for a manifest that cannot be read.

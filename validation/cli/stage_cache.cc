@@ -154,6 +154,8 @@ Notes ResultDirectory::run(const Stage &stage)
   record.seconds = progress.seconds();
   record.command_line = command_line_;
   record.revision = revision();
+  for (const std::string &output : outputs)
+    manifest_.forget(output);
   manifest_.stages[stage.name] = record;
   save_manifest(manifest_, path_);
   progress.finish("done");

@@ -1,0 +1,412 @@
+#include "reference_fe/decks/deck_mesh.h"
+#include "reference_fe/decks/decks.h"
+#include "synthetic/dataset/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+namespace pelvireg::reference_fe
+{
+namespace
+{
+using dataset::ReferenceModel;
+using dataset::SurfaceRegion;
+
+constexpr int most_layers = 8;
+constexpr std::size_t longest_name = 60; // of 80 that both programs take: suffixes follow
+
+/// A name that both programs take: upper-case letters, digits and underscores, a letter first.
+std::string deck_name(const std::string &name)
+{
+  std::string word;
+  for (const char c : name.substr(0, longest_name))
+    word += std::isalnum(static_cast<unsigned char>(c)) && static_cast<unsigned char>(c) < 128
+                ? static_cast<char>(std::toupper(static_cast<unsigned char>(c)))
+                : '_';
+  return word.empty() || std::isalpha(static_cast<unsigned char>(word[0])) ? word : "N_" + word;
+}
+
+/// Different names stay different in the deck.
+void require_unique(const std::vector<std::string> &names, const char *kind)
+{
+  std::map<std::string, std::string> seen;
+  for (const std::string &name : names)
+    if (const auto [place, is_new] = seen.emplace(deck_name(name), name); !is_new || deck_name(name).empty())
+      throw InputError(
+          fmt::format("{} '{}' and '{}' have the same name '{}' in a deck, which knows letters, digits and "
+                      "underscores without case; rename one",
+                      kind, place->second, name, deck_name(name)));
+}
+
+void check_names(const ReferenceModel &reference)
+{
+  std::vector<std::string> parts, materials;
+  for (const dataset::ReferenceShell &shell : reference.shells)
+    parts.push_back(shell.name);
+  for (const dataset::ReferenceSolid &solid : reference.solids)
+    parts.push_back(solid.name);
+  for (const auto &[name, material] : reference.materials)
+    materials.push_back(name);
+  require_unique(parts, "parts");
+  require_unique(materials, "materials");
+}
+
+void check_loads(const DeckLoads &loads)
+{
+  const auto check = [&](const std::vector<double> &values, const std::string &what)
+  {
+    if (values.empty() || values.size() != loads.pressure.size())
+      throw InputError(fmt::format("a deck needs one {} a step, got {} for {} steps; give a pressure or a truth", what,
+                                   values.size(), loads.pressure.size()));
+    for (const double value : values)
+      if (!std::isfinite(value))
+        throw InputError(
+            fmt::format("the {} of a deck is {}, must be finite; mend the truth or the pressure", what, value));
+  };
+  check(loads.pressure, "abdominal pressure");
+  for (const auto &[part, values] : loads.cavity_pressure)
+    check(values, "fluid pressure of '" + part + "'");
+}
+
+/// What is written so far, and how lines of many numbers are broken.
+class DeckText
+{
+public:
+  template <typename... Arguments> void line(fmt::format_string<Arguments...> format, Arguments &&...arguments)
+  {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+    text_ += '\n';
+  }
+
+  /// Comma-separated, at most `per_line` a line, a comma at the end of a line that goes on.
+  void list(const std::vector<std::string> &words, std::size_t per_line)
+  {
+    for (std::size_t i = 0; i < words.size(); ++i)
+    {
+      text_ += words[i];
+      if (i + 1 < words.size())
+        text_ += ',';
+      if (i + 1 == words.size() || (i + 1) % per_line == 0)
+        text_ += '\n';
+    }
+  }
+
+  /// sum of weight * displacement = 0 in each direction; the first node is eliminated.
+  void equations(const std::vector<int> &nodes, const std::vector<double> &weights)
+  {
+    for (int direction = 1; direction <= 3; ++direction)
+    {
+      line("*EQUATION\n{}", nodes.size());
+      std::vector<std::string> terms;
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        terms.push_back(fmt::format("{},{},{:.9g}", nodes[i], direction, weights[i]));
+      list(terms, 4);
+    }
+  }
+
+  std::string take() { return std::move(text_); }
+
+private:
+  std::string text_;
+};
+
+std::string printable(const std::string &text)
+{
+  std::string line = text.substr(0, longest_name);
+  for (char &c : line)
+    if (static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) > 126)
+      c = '_';
+  return line;
+}
+
+std::string joined(const std::vector<std::pair<std::string, std::string>> &pairs)
+{
+  std::string text;
+  for (const auto &[a, b] : pairs)
+    text += (text.empty() ? "" : ", ") + printable(a) + "-" + printable(b);
+  return text.empty() ? "none" : text;
+}
+
+void write_header(DeckText &deck, const dataset::Anatomy &anatomy, const DeckLoads &loads, int layers)
+{
+  const ReferenceModel &reference = anatomy.reference;
+  std::string cavities;
+  for (const dataset::ReferenceShell &shell : reference.shells)
+    if (shell.has_cavity)
+      cavities += (cavities.empty() ? "" : ", ") + printable(shell.name) +
+                  (loads.cavity_pressure.contains(shell.name) ? " (its pressure is given)" : " (empty)");
+  deck.line("*HEADING\npelvireg case {}", printable(anatomy.case_name));
+  deck.line("** Units mm, N, MPa, tonne, s. Frame LPS (+x left, +y posterior, +z superior).");
+  deck.line("** Given: shells as C3D20R, {} through the wall; solids as C3D10; bars as T3D2 on the mid-surface;",
+            layers);
+  deck.line("**   supports, ties, follower pressure (abdominal, on the peritoneal faces), {} steps with NLGEOM.",
+            loads.pressure.size());
+  deck.line("**   Energy sum C_i0 (I1bar - 3)^i + (J - 1)^2 / D1 with D1 = 2 / kappa, as the reference's own.");
+  deck.line("** Not given: contact between parts ({}).", joined(reference.contact_pairs));
+  deck.line("** Not given: incompressible fluid of cavities ({}), nor its pressure on the flat caps of open ends.",
+            cavities.empty() ? "none" : cavities);
+  deck.line(
+      "** Abaqus: C3D20RH and C3D10H (hybrid) suit these nearly incompressible materials better; CalculiX has none.");
+  deck.line("** CalculiX: run 'ccx' on this file's name without .inp, then 'pelvireg import DIR --from NAME.frd'.");
+}
+
+void write_nodes(DeckText &deck, const DeckMesh &mesh)
+{
+  deck.line("*NODE, NSET=ALL_NODES");
+  for (const auto &[id, x] : mesh.nodes())
+    deck.line("{},{:.9g},{:.9g},{:.9g}", id, x[0], x[1], x[2]);
+}
+
+std::string surface_name(const std::string &part, const std::string &what)
+{
+  return deck_name(part) + "_" + what;
+}
+
+void write_surface(DeckText &deck, const std::string &name, const std::vector<DeckFace> &faces)
+{
+  deck.line("*SURFACE, NAME={}, TYPE=ELEMENT", name);
+  for (const DeckFace &face : faces)
+    deck.line("{},S{}", face.element, face.number);
+}
+
+void write_bodies(DeckText &deck, const DeckMesh &mesh)
+{
+  for (const DeckBody &body : mesh.bodies())
+  {
+    deck.line("*ELEMENT, TYPE={}, ELSET={}", body.element_type, deck_name(body.part));
+    int id = body.first_element;
+    std::set<int> used;
+    for (const std::vector<int> &nodes : body.elements)
+    {
+      std::vector<std::string> words = {std::to_string(id++)};
+      for (const int node : nodes)
+        words.push_back(std::to_string(node));
+      deck.list(words, 11);
+      used.insert(nodes.begin(), nodes.end());
+    }
+    deck.line("*NSET, NSET={}_NODES", deck_name(body.part));
+    std::vector<std::string> words;
+    for (const int node : used)
+      words.push_back(std::to_string(node));
+    deck.list(words, 16);
+    deck.line("*SOLID SECTION, ELSET={}, MATERIAL={}", deck_name(body.part), deck_name(body.material));
+    write_surface(deck, surface_name(body.part, "OUTER"), body.outer_faces);
+    if (!body.inner_faces.empty())
+      write_surface(deck, surface_name(body.part, "INNER"), body.inner_faces);
+  }
+}
+
+/// One element set for each group, area and material, in the order of their first bars.
+void write_bars(DeckText &deck, const DeckMesh &mesh)
+{
+  struct Section
+  {
+    const DeckBar *first;
+    std::vector<int> bars;
+  };
+  std::vector<Section> sections;
+  for (std::size_t b = 0; b < mesh.bars().size(); ++b)
+  {
+    const DeckBar &bar = mesh.bars()[b];
+    const auto same = std::find_if(sections.begin(), sections.end(),
+                                   [&](const Section &s) {
+                                     return s.first->group == bar.group && s.first->area == bar.area &&
+                                            s.first->material == bar.material;
+                                   });
+    if (same == sections.end())
+      sections.push_back({&bar, {static_cast<int>(b)}});
+    else
+      same->bars.push_back(static_cast<int>(b));
+  }
+  int number = 0;
+  for (const Section &section : sections)
+  {
+    const std::string name = fmt::format("BARS_{}_{}", ++number, deck_name(section.first->group));
+    deck.line("*ELEMENT, TYPE=T3D2, ELSET={}", name);
+    for (const int b : section.bars)
+      deck.line("{},{},{}", mesh.first_bar() + b, mesh.bars()[static_cast<std::size_t>(b)].node_a,
+                mesh.bars()[static_cast<std::size_t>(b)].node_b);
+    deck.line("*SOLID SECTION, ELSET={}, MATERIAL={}\n{:.9g}", name, deck_name(section.first->material),
+              section.first->area);
+  }
+}
+
+/// D2 and D3 large: (J - 1)^4 / D2 + (J - 1)^6 / D3 vanish. Zeros would make CalculiX take values of its own.
+void write_materials(DeckText &deck, const ReferenceModel &reference)
+{
+  for (const auto &[name, m] : reference.materials)
+  {
+    deck.line("*MATERIAL, NAME={}", deck_name(name));
+    if (m.c20 == 0 && m.c30 == 0)
+      deck.line("*HYPERELASTIC, NEO HOOKE\n{:.9g},{:.9g}", m.c10, 2 / m.kappa);
+    else
+      deck.line("*HYPERELASTIC, YEOH\n{:.9g},{:.9g},{:.9g},{:.9g},1.e6,1.e6", m.c10, m.c20, m.c30, 2 / m.kappa);
+  }
+}
+
+/// A held point between nodes: one of them that no other equation has taken follows from the rest.
+void write_held_point(DeckText &deck, const DeckPoint &point, const std::set<int> &held, std::set<int> &taken)
+{
+  const auto dependent =
+      std::find_if(point.nodes.begin(), point.nodes.end(), [&](int node) { return !taken.contains(node); });
+  if (dependent == point.nodes.end())
+    return; // every node of it is held already
+  taken.insert(*dependent);
+  std::vector<int> nodes = {*dependent};
+  std::vector<double> weights = {point.weights[static_cast<std::size_t>(dependent - point.nodes.begin())]};
+  for (std::size_t i = 0; i < point.nodes.size(); ++i)
+    if (point.nodes[i] != nodes.front() && !held.contains(point.nodes[i]))
+    {
+      nodes.push_back(point.nodes[i]);
+      weights.push_back(point.weights[i]);
+    }
+  deck.equations(nodes, weights);
+}
+
+/// Held points, and nodes of bars that hang on a wall between its nodes.
+void write_constraints(DeckText &deck, const DeckMesh &mesh)
+{
+  std::set<int> taken; // fixed, or eliminated by an equation
+  for (const DeckPoint &point : mesh.fixed_points())
+    if (point.is_node())
+      taken.insert(point.nodes.front());
+  if (!taken.empty())
+  {
+    deck.line("*NSET, NSET=FIXED");
+    std::vector<std::string> words;
+    for (const int node : taken)
+      words.push_back(std::to_string(node));
+    deck.list(words, 16);
+    deck.line("*BOUNDARY\nFIXED,1,3");
+  }
+  std::set<int> held = taken;
+  for (const DeckPoint &point : mesh.fixed_points())
+    if (!point.is_node())
+      write_held_point(deck, point, held, taken);
+  for (const auto &[id, point] : mesh.carried_nodes())
+  {
+    DeckPoint equation{{id}, {-1}};
+    equation.nodes.insert(equation.nodes.end(), point.nodes.begin(), point.nodes.end());
+    equation.weights.insert(equation.weights.end(), point.weights.begin(), point.weights.end());
+    deck.equations(equation.nodes, equation.weights);
+  }
+}
+
+/// Faces of one part, by the region of the reference's cell or boundary face.
+std::vector<DeckFace> outer_faces(const DeckBody &body, const dataset::Integers &region, SurfaceRegion wanted)
+{
+  std::vector<DeckFace> faces;
+  for (Eigen::Index c = 0; c < region.size(); ++c)
+    if (region[c] == static_cast<std::int32_t>(wanted))
+      faces.push_back(body.outer_faces[static_cast<std::size_t>(c)]);
+  return faces;
+}
+
+const dataset::Integers &region_of(const ReferenceModel &reference, const std::string &part)
+{
+  for (const dataset::ReferenceShell &shell : reference.shells)
+    if (shell.name == part)
+      return shell.region;
+  return std::find_if(reference.solids.begin(), reference.solids.end(), [&](const auto &s) { return s.name == part; })
+      ->region;
+}
+
+/// The patch of b follows whatever outer face of a it lies on, as in the reference.
+void write_ties(DeckText &deck, const DeckMesh &mesh, const ReferenceModel &reference)
+{
+  for (const auto &[a, b] : reference.ties)
+  {
+    const auto body =
+        std::find_if(mesh.bodies().begin(), mesh.bodies().end(), [&](const DeckBody &x) { return x.part == b; });
+    const std::vector<DeckFace> patch = outer_faces(*body, region_of(reference, b), SurfaceRegion::cervix_patch);
+    if (patch.empty())
+      throw InputError(
+          fmt::format("tie {}-{}: part '{}' has no cell of region cervix_patch; mark the shared patch", a, b, b));
+    write_surface(deck, surface_name(b, "PATCH"), patch);
+    deck.line("*TIE, NAME=TIE_{}_{}, POSITION TOLERANCE=5., ADJUST=NO\n{},{}", deck_name(a).substr(0, 30),
+              deck_name(b).substr(0, 30), surface_name(b, "PATCH"), surface_name(a, "OUTER"));
+  }
+}
+
+/// Pressure over the total time: step i ends at time i.
+void write_amplitude(DeckText &deck, const std::string &name, const std::vector<double> &pressure)
+{
+  deck.line("*AMPLITUDE, NAME={}, TIME=TOTAL TIME", name);
+  std::vector<std::string> words = {"0.,0."};
+  for (std::size_t i = 0; i < pressure.size(); ++i)
+    words.push_back(fmt::format("{}.,{:.9g}", i + 1, pressure[i]));
+  deck.list(words, 4);
+}
+
+void write_loads(DeckText &deck, const DeckMesh &mesh, const ReferenceModel &reference, const DeckLoads &loads,
+                 std::vector<std::string> &cards)
+{
+  write_amplitude(deck, "ABDOMINAL_PRESSURE", loads.pressure);
+  for (const DeckBody &body : mesh.bodies())
+  {
+    const std::vector<DeckFace> faces = outer_faces(body, region_of(reference, body.part), SurfaceRegion::peritoneal);
+    if (!faces.empty())
+    {
+      write_surface(deck, surface_name(body.part, "PERITONEAL"), faces);
+      cards.push_back(
+          fmt::format("*DSLOAD, AMPLITUDE=ABDOMINAL_PRESSURE\n{},P,1.", surface_name(body.part, "PERITONEAL")));
+    }
+    if (const auto cavity = loads.cavity_pressure.find(body.part); cavity != loads.cavity_pressure.end())
+    {
+      const std::string amplitude = "FLUID_" + deck_name(body.part);
+      write_amplitude(deck, amplitude, cavity->second);
+      cards.push_back(fmt::format("*DSLOAD, AMPLITUDE={}\n{},P,1.", amplitude, surface_name(body.part, "INNER")));
+    }
+  }
+  if (cards.empty())
+    throw InputError("no part has a cell of region peritoneal, so nothing carries the abdominal pressure; mark the "
+                     "peritoneal surfaces in the anatomy or export other parts");
+}
+
+/// CalculiX' T3D2 keeps residuals of about 1 % of the mean force at its hinges however small the corrections get. With
+/// bars the correction decides: at most 0.1 % of the increment's largest displacement.
+constexpr const char *controls_with_bars = "*CONTROLS, PARAMETERS=FIELD\n0.05,0.001";
+
+void write_steps(DeckText &deck, std::size_t n_steps, const std::vector<std::string> &loads, bool has_bars)
+{
+  for (std::size_t step = 1; step <= n_steps; ++step)
+  {
+    deck.line("** increment {}\n*STEP, NLGEOM, INC=1000\n*STATIC\n0.25,1.,1.e-5,1.", step);
+    if (has_bars)
+      deck.line("{}", controls_with_bars);
+    if (step == 1)
+      for (const std::string &card : loads)
+        deck.line("{}", card);
+    deck.line("*NODE FILE, FREQUENCY=1000000\nU\n*END STEP");
+  }
+}
+} // namespace
+
+std::string abaqus_deck(const dataset::Anatomy &anatomy, const DeckLoads &loads, const DeckOptions &options)
+{
+  const ReferenceModel &reference = anatomy.reference;
+  check_loads(loads);
+  if (options.layers < 1 || options.layers > most_layers)
+    throw InputError(fmt::format("a deck has 1 to {} bricks through a wall, got {}; give another number", most_layers,
+                                 options.layers));
+  check_names(reference);
+  const DeckMesh mesh(reference, options.layers);
+  DeckText deck;
+  write_header(deck, anatomy, loads, options.layers);
+  write_nodes(deck, mesh);
+  write_bodies(deck, mesh);
+  write_bars(deck, mesh);
+  write_materials(deck, reference);
+  write_constraints(deck, mesh);
+  write_ties(deck, mesh, reference);
+  std::vector<std::string> cards;
+  write_loads(deck, mesh, reference, loads, cards);
+  write_steps(deck, loads.pressure.size(), cards, !mesh.bars().empty());
+  return deck.take();
+}
+} // namespace pelvireg::reference_fe
