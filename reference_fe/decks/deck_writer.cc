@@ -1,13 +1,13 @@
+#include "reference_fe/decks/deck_bars.h"
 #include "reference_fe/decks/deck_mesh.h"
+#include "reference_fe/decks/deck_text.h"
 #include "reference_fe/decks/decks.h"
 #include "synthetic/dataset/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <iterator>
 #include <set>
 
 namespace pelvireg::reference_fe
@@ -18,19 +18,6 @@ using dataset::ReferenceModel;
 using dataset::SurfaceRegion;
 
 constexpr int most_layers = 8;
-constexpr std::size_t longest_name = 60; // of 80 that both programs take: suffixes follow
-
-/// A name that both programs take: upper-case letters, digits and underscores, a letter first.
-std::string deck_name(const std::string &name)
-{
-  std::string word;
-  for (const char c : name.substr(0, longest_name))
-    word += std::isalnum(static_cast<unsigned char>(c)) && static_cast<unsigned char>(c) < 128
-                ? static_cast<char>(std::toupper(static_cast<unsigned char>(c)))
-                : '_';
-  return word.empty() || std::isalpha(static_cast<unsigned char>(word[0])) ? word : "N_" + word;
-}
-
 /// Different names stay different in the deck.
 void require_unique(const std::vector<std::string> &names, const char *kind)
 {
@@ -73,57 +60,6 @@ void check_loads(const DeckLoads &loads)
     check(values, "fluid pressure of '" + part + "'");
 }
 
-/// What is written so far, and how lines of many numbers are broken.
-class DeckText
-{
-public:
-  template <typename... Arguments> void line(fmt::format_string<Arguments...> format, Arguments &&...arguments)
-  {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
-    text_ += '\n';
-  }
-
-  /// Comma-separated, at most `per_line` a line, a comma at the end of a line that goes on.
-  void list(const std::vector<std::string> &words, std::size_t per_line)
-  {
-    for (std::size_t i = 0; i < words.size(); ++i)
-    {
-      text_ += words[i];
-      if (i + 1 < words.size())
-        text_ += ',';
-      if (i + 1 == words.size() || (i + 1) % per_line == 0)
-        text_ += '\n';
-    }
-  }
-
-  /// sum of weight * displacement = 0 in each direction; the first node is eliminated.
-  void equations(const std::vector<int> &nodes, const std::vector<double> &weights)
-  {
-    for (int direction = 1; direction <= 3; ++direction)
-    {
-      line("*EQUATION\n{}", nodes.size());
-      std::vector<std::string> terms;
-      for (std::size_t i = 0; i < nodes.size(); ++i)
-        terms.push_back(fmt::format("{},{},{:.9g}", nodes[i], direction, weights[i]));
-      list(terms, 4);
-    }
-  }
-
-  std::string take() { return std::move(text_); }
-
-private:
-  std::string text_;
-};
-
-std::string printable(const std::string &text)
-{
-  std::string line = text.substr(0, longest_name);
-  for (char &c : line)
-    if (static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) > 126)
-      c = '_';
-  return line;
-}
-
 std::string joined(const std::vector<std::pair<std::string, std::string>> &pairs)
 {
   std::string text;
@@ -132,7 +68,7 @@ std::string joined(const std::vector<std::pair<std::string, std::string>> &pairs
   return text.empty() ? "none" : text;
 }
 
-void write_header(DeckText &deck, const dataset::Anatomy &anatomy, const DeckLoads &loads, int layers)
+void write_header(DeckText &deck, const dataset::Anatomy &anatomy, const DeckLoads &loads, const DeckOptions &options)
 {
   const ReferenceModel &reference = anatomy.reference;
   std::string cavities;
@@ -142,8 +78,8 @@ void write_header(DeckText &deck, const dataset::Anatomy &anatomy, const DeckLoa
                   (loads.cavity_pressure.contains(shell.name) ? " (its pressure is given)" : " (empty)");
   deck.line("*HEADING\npelvireg case {}", printable(anatomy.case_name));
   deck.line("** Units mm, N, MPa, tonne, s. Frame LPS (+x left, +y posterior, +z superior).");
-  deck.line("** Given: shells as C3D20R, {} through the wall; solids as C3D10; bars as T3D2 on the mid-surface;",
-            layers);
+  deck.line("** Given: shells as C3D20R, {} through the wall; solids as C3D10; bars as {} on the mid-surface;",
+            options.layers, options.springs ? "SPRINGA" : "T3D2");
   deck.line("**   supports, ties, follower pressure (abdominal, on the peritoneal faces), {} steps with NLGEOM.",
             loads.pressure.size());
   deck.line("**   Energy sum C_i0 (I1bar - 3)^i + (J - 1)^2 / D1 with D1 = 2 / kappa, as the reference's own.");
@@ -198,41 +134,6 @@ void write_bodies(DeckText &deck, const DeckMesh &mesh)
     write_surface(deck, surface_name(body.part, "OUTER"), body.outer_faces);
     if (!body.inner_faces.empty())
       write_surface(deck, surface_name(body.part, "INNER"), body.inner_faces);
-  }
-}
-
-/// One element set for each group, area and material, in the order of their first bars.
-void write_bars(DeckText &deck, const DeckMesh &mesh)
-{
-  struct Section
-  {
-    const DeckBar *first;
-    std::vector<int> bars;
-  };
-  std::vector<Section> sections;
-  for (std::size_t b = 0; b < mesh.bars().size(); ++b)
-  {
-    const DeckBar &bar = mesh.bars()[b];
-    const auto same = std::find_if(sections.begin(), sections.end(),
-                                   [&](const Section &s) {
-                                     return s.first->group == bar.group && s.first->area == bar.area &&
-                                            s.first->material == bar.material;
-                                   });
-    if (same == sections.end())
-      sections.push_back({&bar, {static_cast<int>(b)}});
-    else
-      same->bars.push_back(static_cast<int>(b));
-  }
-  int number = 0;
-  for (const Section &section : sections)
-  {
-    const std::string name = fmt::format("BARS_{}_{}", ++number, deck_name(section.first->group));
-    deck.line("*ELEMENT, TYPE=T3D2, ELSET={}", name);
-    for (const int b : section.bars)
-      deck.line("{},{},{}", mesh.first_bar() + b, mesh.bars()[static_cast<std::size_t>(b)].node_a,
-                mesh.bars()[static_cast<std::size_t>(b)].node_b);
-    deck.line("*SOLID SECTION, ELSET={}, MATERIAL={}\n{:.9g}", name, deck_name(section.first->material),
-              section.first->area);
   }
 }
 
@@ -370,15 +271,15 @@ void write_loads(DeckText &deck, const DeckMesh &mesh, const ReferenceModel &ref
 
 /// CalculiX' T3D2 keeps residuals of about 1 % of the mean force at its hinges however small the corrections get. With
 /// bars the correction decides: at most 0.1 % of the increment's largest displacement.
-constexpr const char *controls_with_bars = "*CONTROLS, PARAMETERS=FIELD\n0.05,0.001";
+constexpr const char *controls_with_trusses = "*CONTROLS, PARAMETERS=FIELD\n0.05,0.001";
 
-void write_steps(DeckText &deck, std::size_t n_steps, const std::vector<std::string> &loads, bool has_bars)
+void write_steps(DeckText &deck, std::size_t n_steps, const std::vector<std::string> &loads, bool has_trusses)
 {
   for (std::size_t step = 1; step <= n_steps; ++step)
   {
     deck.line("** increment {}\n*STEP, NLGEOM, INC=1000\n*STATIC\n0.25,1.,1.e-5,1.", step);
-    if (has_bars)
-      deck.line("{}", controls_with_bars);
+    if (has_trusses)
+      deck.line("{}", controls_with_trusses);
     if (step == 1)
       for (const std::string &card : loads)
         deck.line("{}", card);
@@ -397,16 +298,19 @@ std::string abaqus_deck(const dataset::Anatomy &anatomy, const DeckLoads &loads,
   check_names(reference);
   const DeckMesh mesh(reference, options.layers);
   DeckText deck;
-  write_header(deck, anatomy, loads, options.layers);
+  write_header(deck, anatomy, loads, options);
   write_nodes(deck, mesh);
   write_bodies(deck, mesh);
-  write_bars(deck, mesh);
+  if (options.springs)
+    write_springs(deck, mesh, reference);
+  else
+    write_trusses(deck, mesh);
   write_materials(deck, reference);
   write_constraints(deck, mesh);
   write_ties(deck, mesh, reference);
   std::vector<std::string> cards;
   write_loads(deck, mesh, reference, loads, cards);
-  write_steps(deck, loads.pressure.size(), cards, !mesh.bars().empty());
+  write_steps(deck, loads.pressure.size(), cards, !mesh.bars().empty() && !options.springs);
   return deck.take();
 }
 } // namespace pelvireg::reference_fe

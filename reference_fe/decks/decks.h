@@ -23,7 +23,8 @@ struct DeckLoads
 
 struct DeckOptions
 {
-  int layers = 1; ///< bricks through each wall, 1 … 8
+  int layers = 1;       ///< bricks through each wall, 1 … 8
+  bool springs = false; ///< bars as SPRINGA with a table of force and elongation instead of T3D2
 };
 
 /// The pressures of a truth: the abdominal one of every increment, and the fluids' when `with_cavities`.
@@ -34,8 +35,9 @@ DeckLoads loads_of(const dataset::Truth &truth, bool with_cavities);
 dataset::Anatomy cut_parts(const dataset::Anatomy &anatomy, const std::vector<std::string> &parts);
 
 /// The reference model as the text of an Abaqus input deck that CalculiX 2.20 runs too: shells as C3D20R through the
-/// wall, solids as C3D10, bars as T3D2, ties, supports, follower pressure, one *STEP an increment with NLGEOM. Contact
-/// and fluid cavities are left out, and the header says so. Units mm, N, MPa; frame LPS; ids begin at 1.
+/// wall, solids as C3D10, bars as T3D2 or springs, ties, supports, follower pressure, one *STEP an increment with
+/// NLGEOM. Contact and fluid cavities are left out, and the header says so. Units mm, N, MPa; frame LPS; ids begin
+/// at 1.
 ///
 /// Node n (0-based) of part i has the id 1 + n + (number of nodes of the parts before it), shells before solids, for
 /// every number of layers: of a shell this is the node of the outer surface. Centre nodes of the quadrilaterals do not

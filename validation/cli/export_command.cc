@@ -81,7 +81,7 @@ void export_deck(const ResultDirectory &directory, const ExportArguments &given)
 
 void refuse_deck_options(const CLI::App &command)
 {
-  for (const char *option : {"--pressure", "--cavity-pressures", "--layers", "--parts"})
+  for (const char *option : {"--pressure", "--cavity-pressures", "--layers", "--springs", "--parts"})
     if (command.count(option) > 0)
       throw InputError(fmt::format("{} belongs to --format abaqus; leave it out", option));
 }
@@ -117,6 +117,8 @@ void add_export_command(CLI::App &program, Invocation &invocation)
   command->add_option("--layers", arguments->deck.layers, "Deck: bricks through each wall")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
+  command->add_flag("--springs", arguments->deck.springs,
+                    "Deck: bars as nonlinear springs (SPRINGA) instead of T3D2, for CalculiX with many bars");
   command->add_option("--parts", arguments->parts, "Deck: these parts alone, bars to others end in space")
       ->delimiter(',');
   command->footer("Examples:\n  pelvireg export out/t005 --format vtk\n"

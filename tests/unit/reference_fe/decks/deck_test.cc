@@ -3,6 +3,7 @@
 #include "synthetic/dataset/error.h"
 #include "tests/unit/reference_fe/decks/sample_deck.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -127,6 +128,19 @@ TEST(Deck, SaysWhatItGivesAndWhatNot)
   EXPECT_THAT(deck, HasSubstr("*SURFACE, NAME=VAGINA_INNER, TYPE=ELEMENT\n1,S1\n"));
   EXPECT_THAT(deck, HasSubstr("** increment 2\n*STEP, NLGEOM"));
   EXPECT_THAT(deck, Not(HasSubstr("** increment 3")));
+}
+
+TEST(Deck, GivesSpringsTheForceOfTheBars)
+{
+  const dataset::Anatomy anatomy = sample_deck_anatomy();
+  const std::string deck = abaqus_deck(anatomy, {{1}, {}}, {.springs = true});
+  EXPECT_THAT(deck, Not(HasSubstr("T3D2")));
+  EXPECT_THAT(deck, Not(HasSubstr("*CONTROLS")));
+  EXPECT_THAT(abaqus_deck(anatomy, {{1}, {}}, {}), HasSubstr("*CONTROLS"));
+  // Length 9 mm, stretch 1.5: 3 mm^2 of Yeoh, 2 (1.5 - 1 / 1.5^2) (C10 + 2 C20 e + 3 C30 e^2), e = I1 - 3 = 7 / 12.
+  const double e = 7. / 12, force = 3 * 2 * (1.5 - 1 / 2.25) * (0.25 + e + 0.375 * e * e);
+  EXPECT_THAT(deck, HasSubstr(fmt::format("\n{:.9g},4.5\n", force)));
+  EXPECT_THAT(deck, HasSubstr("\n0,0\n"));
 }
 
 TEST(Deck, IsTheSameTextEveryTime)

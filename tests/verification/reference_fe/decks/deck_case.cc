@@ -161,6 +161,27 @@ std::vector<dataset::ReferenceTruss> spread_bars(const std::vector<dataset::Refe
   return result;
 }
 
+/// Where bars hold the parts, at rest, on the mid-surface.
+std::vector<Eigen::Vector3d> bar_ends(const dataset::Anatomy &anatomy)
+{
+  std::vector<Eigen::Vector3d> ends;
+  const auto add = [&](const std::string &part, int node)
+  {
+    for (const dataset::ReferenceShell &shell : anatomy.reference.shells)
+      if (shell.name == part)
+        ends.push_back(shell.midsurface.row(node).transpose());
+    for (const dataset::ReferenceSolid &solid : anatomy.reference.solids)
+      if (solid.name == part)
+        ends.push_back(solid.points.row(node).transpose());
+  };
+  for (const dataset::ReferenceTruss &truss : anatomy.reference.trusses)
+  {
+    add(truss.part_a, truss.node_a);
+    add(truss.part_b, truss.node_b);
+  }
+  return ends;
+}
+
 void solve(PelvisModel &model, Eigen::VectorXd &solution)
 {
   NewtonResult result;
@@ -179,16 +200,24 @@ void solve(PelvisModel &model, Eigen::VectorXd &solution)
 }
 } // namespace
 
-dataset::Anatomy lone_shell(const std::string &case_name, const std::string &part, int n_increments)
+dataset::Anatomy bare_parts(const std::string &case_name, const std::vector<std::string> &parts, int n_increments)
 {
-  dataset::Anatomy anatomy = cut_parts(anatomy::build_anatomy(anatomy::case_text(case_name), case_name), {part});
+  dataset::Anatomy anatomy = cut_parts(anatomy::build_anatomy(anatomy::case_text(case_name), case_name), parts);
   dataset::ReferenceModel &reference = anatomy.reference;
   reference.n_increments = n_increments;
-  reference.shells.at(0).name = "vagina";
-  reference.shells[0].has_cavity = false;
-  reference.shells[0].rims.clear();
+  reference.contact_pairs.clear();
+  for (dataset::ReferenceShell &shell : reference.shells)
+  {
+    shell.has_cavity = false;
+    shell.rims.clear();
+  }
+  if (std::find(parts.begin(), parts.end(), "vagina") != parts.end())
+    return anatomy;
+  const std::string former = std::exchange(reference.shells.at(0).name, "vagina");
   for (dataset::ReferenceTruss &truss : reference.trusses)
-    truss.part_a = "vagina";
+    for (std::string *part : {&truss.part_a, &truss.part_b})
+      if (*part == former)
+        *part = "vagina";
   return anatomy;
 }
 
@@ -230,10 +259,10 @@ dataset::Truth moved_by_reference(const dataset::Anatomy &anatomy, const std::ve
   return truth;
 }
 
-dataset::Truth moved_by_calculix(const dataset::Anatomy &anatomy, const std::vector<double> &pressures, int layers,
-                                 const std::filesystem::path &folder, double *seconds)
+dataset::Truth moved_by_calculix(const dataset::Anatomy &anatomy, const std::vector<double> &pressures,
+                                 const DeckOptions &options, const std::filesystem::path &folder, double *seconds)
 {
-  dataset::write_text_file(folder / "deck.inp", abaqus_deck(anatomy, {pressures, {}}, {layers}));
+  dataset::write_text_file(folder / "deck.inp", abaqus_deck(anatomy, {pressures, {}}, options));
   const double begin = processor_seconds(RUSAGE_CHILDREN);
   const std::string command =
       fmt::format("cd '{}' && OMP_NUM_THREADS=1 OMP_THREAD_LIMIT=1 ccx deck >ccx.log 2>&1", folder.string());
@@ -245,23 +274,21 @@ dataset::Truth moved_by_calculix(const dataset::Anatomy &anatomy, const std::vec
 }
 
 FieldDifference difference(const dataset::Anatomy &anatomy, const dataset::Truth &a, const dataset::Truth &b,
-                           Eigen::Index n_nodes, double clearance)
+                           std::size_t surface, Eigen::Index n_nodes, double clearance)
 {
-  const dataset::ReferenceShell &shell = anatomy.reference.shells.at(0);
-  const dataset::Points &of_a = a.surfaces.at(0).displacements.back(), &of_b = b.surfaces.at(0).displacements.back();
+  const dataset::Points &of_a = a.surfaces.at(surface).displacements.back(),
+                        &of_b = b.surfaces.at(surface).displacements.back();
+  const std::vector<Eigen::Vector3d> ends = bar_ends(anatomy);
   FieldDifference result;
   result.n_nodes = static_cast<int>(n_nodes);
   for (Eigen::Index n = 0; n < n_nodes; ++n)
   {
-    const double gap = (of_a.row(n) - of_b.row(n)).norm();
     result.largest_displacement = std::max(result.largest_displacement, of_b.row(n).norm());
-    result.largest_anywhere = std::max(result.largest_anywhere, gap);
-    const bool is_away =
-        std::none_of(anatomy.reference.trusses.begin(), anatomy.reference.trusses.end(),
-                     [&](const dataset::ReferenceTruss &truss)
-                     { return (shell.midsurface.row(truss.node_a) - shell.midsurface.row(n)).norm() < clearance; });
-    if (!is_away)
+    const Eigen::Vector3d rest = a.surfaces[surface].rest.points.row(n).transpose();
+    if (std::any_of(ends.begin(), ends.end(),
+                    [&](const Eigen::Vector3d &end) { return (end - rest).norm() < clearance; }))
       continue;
+    const double gap = (of_a.row(n) - of_b.row(n)).norm();
     ++result.n_away;
     result.mean += gap;
     result.largest = std::max(result.largest, gap);
