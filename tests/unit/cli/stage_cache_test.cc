@@ -160,6 +160,18 @@ TEST_F(Chain, KeepsTheFormerRecordWhenAStageFails)
   EXPECT_EQ(n_runs_, 1);
 }
 
+TEST_F(Chain, GivesAFileToTheStageThatWroteItLast)
+{
+  run(first());
+  run(stage("other", "source.txt", "middle.txt")); // as truth.h5 by reference or import
+  EXPECT_EQ(n_runs_, 2);
+  run(second());
+  EXPECT_EQ(n_runs_, 3);
+  EXPECT_THAT(content_of(path_ / "manifest.json"), ::testing::Not(HasSubstr("\"first\"")));
+  run(first());
+  EXPECT_EQ(n_runs_, 4);
+}
+
 TEST_F(Chain, ListsTheDigestOfEveryFileInTheManifest)
 {
   run(first());
