@@ -28,11 +28,16 @@ using namespace registration;
 
 using Play = std::vector<Observation>;
 
-double median(std::vector<double> values)
+double quantile(std::vector<double> values, double share)
 {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+double median(const std::vector<double> &values)
+{
+  return quantile(values, 0.5);
 }
 
 double milliseconds_of(const std::function<void()> &work)
@@ -67,7 +72,10 @@ public:
   {
     for (std::size_t k = 0; k < std::size(names); ++k)
       state.counters[std::string(names[k]) + "_ms"] = median(samples_[k]);
-    state.counters["steps_per_s"] = 1000 / median(samples_[std::size(names) - 1]);
+    const std::vector<double> &steps = samples_[std::size(names) - 1];
+    state.counters["steps_per_s"] = 1000 / median(steps);
+    state.counters["step_p05_ms"] = quantile(steps, 0.05);
+    state.counters["step_p95_ms"] = quantile(steps, 0.95);
   }
 
 private:
@@ -351,15 +359,15 @@ int main(int argc, char **argv)
   try
   {
     bench::add_benchmarks(bench::take_step_scenes(argc, argv));
+    ::benchmark::AddCustomContext("kernels", registration::kernels::best().instruction_set);
+    ::benchmark::Initialize(&argc, argv);
+    if (::benchmark::ReportUnrecognizedArguments(argc, argv))
+      return 2;
+    ::benchmark::RunSpecifiedBenchmarks();
   }
-  catch (const std::runtime_error &error)
+  catch (const std::exception &error)
   {
     std::fprintf(stderr, "registration_bench: %s\n", error.what());
     return 2;
   }
-  ::benchmark::AddCustomContext("kernels", registration::kernels::best().instruction_set);
-  ::benchmark::Initialize(&argc, argv);
-  if (::benchmark::ReportUnrecognizedArguments(argc, argv))
-    return 2;
-  ::benchmark::RunSpecifiedBenchmarks();
 }

@@ -83,7 +83,8 @@ Model read_step_scene(const std::string &folder)
   Model model;
   try
   {
-    for (const nlohmann::json &described : nlohmann::json::parse(in).at("bodies"))
+    const nlohmann::json scene = nlohmann::json::parse(in);
+    for (const nlohmann::json &described : scene.at("bodies"))
     {
       Body &body = model.bodies.emplace_back();
       body.name = described.at("name").get<std::string>();
