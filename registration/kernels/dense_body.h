@@ -187,21 +187,36 @@ inline void extend_add(const double *update, int update_stride, const Run *runs,
   for (int q = first_run; q < last_run; ++q)
     for (int j = 0; j < runs[q].length; ++j)
     {
-      const double *from = update + static_cast<long>(runs[q].first + j) * update_stride;
-      double *to = target + static_cast<long>(runs[q].target - shift + j) * target_stride - shift;
+      const double *__restrict from = update + static_cast<long>(runs[q].first + j) * update_stride;
+      double *__restrict to = target + static_cast<long>(runs[q].target - shift + j) * target_stride - shift;
       for (int i = j; i < runs[q].length; ++i)
         to[runs[q].target + i] += from[runs[q].first + i];
       for (int r = q + 1; r < n_runs; ++r)
       {
-        const double *source = from + runs[r].first;
-        double *sum = to + runs[r].target;
+        const double *__restrict source = from + runs[r].first;
+        double *__restrict sum = to + runs[r].target;
         for (int i = 0; i < runs[r].length; ++i)
           sum[i] += source[i];
       }
     }
 }
 
-inline void solve_lower(const SupernodeColumns &node, double *own, double *x)
+/// product = below x own, for `vectors` registers of rows from `first`.
+template <int vectors>
+inline void multiply_below(const SupernodeColumns &node, const double *own, int first, double *product)
+{
+  Vector sum[vectors];
+  for (int r = 0; r < vectors; ++r)
+    sum[r] = Vector{};
+  const double *column = node.below() + first;
+  for (int k = 0; k < node.n_columns; ++k, column += node.stride())
+    for (int r = 0; r < vectors; ++r)
+      sum[r] += load(column + r * lanes) * own[k];
+  for (int r = 0; r < vectors; ++r)
+    store(product + first + r * lanes, sum[r]);
+}
+
+inline void solve_lower(const SupernodeColumns &node, double *own, double *x, double *scratch)
 {
   const long stride = node.stride();
   for (int j = 0; j < node.n_columns; ++j)
@@ -211,38 +226,48 @@ inline void solve_lower(const SupernodeColumns &node, double *own, double *x)
     for (int i = j + 1; i < node.n_columns; ++i)
       own[i] -= column[i] * own[j];
   }
-  for (int first = 0; first < node.n_below; first += width)
-  {
-    Vector sum[parts] = {};
-    for (int k = 0; k < node.n_columns; ++k)
-      for (int p = 0; p < parts; ++p)
-        sum[p] += load(node.below() + k * stride + first + p * lanes) * own[k];
-    const int n = node.n_below - first < width ? node.n_below - first : width;
-    for (int i = 0; i < n; ++i)
-      x[node.rows[first + i]] -= sum[i / lanes][i % lanes];
-  }
+  constexpr int many = 4 * width / lanes <= 8 ? 4 * width / lanes : 8;
+  const int n_rows = padded(node.n_below);
+  int first = 0;
+  for (; n_rows - first >= many * lanes; first += many * lanes)
+    multiply_below<many>(node, own, first, scratch);
+  for (; first < n_rows; first += width)
+    multiply_below<parts>(node, own, first, scratch);
+  for (int i = 0; i < node.n_below; ++i)
+    x[node.rows[i]] -= scratch[i];
 }
 
-inline void solve_upper(const SupernodeColumns &node, double *own, const double *x)
+/// own <- own - below^T x for `columns` columns from p.
+template <int columns>
+inline void subtract_products(const SupernodeColumns &node, int p, const double *x, double *own)
 {
   const long stride = node.stride();
-  for (int first = 0; first < node.n_below; first += width)
-  {
-    const int n = node.n_below - first < width ? node.n_below - first : width;
-    alignas(64) double below[width] = {};
-    for (int i = 0; i < n; ++i)
-      below[i] = x[node.rows[first + i]];
-    for (int k = 0; k < node.n_columns; ++k)
-    {
-      Vector sum{};
-      for (int p = 0; p < parts; ++p)
-        sum += load(node.below() + k * stride + first + p * lanes) * load(below + p * lanes);
-      own[k] -= sum_of(sum);
-    }
-  }
+  const double *below = node.below() + p * stride;
+  const int n_rows = padded(node.n_below);
+  Vector sum[columns];
+  for (int c = 0; c < columns; ++c)
+    sum[c] = Vector{};
+  for (int r = 0; r < n_rows; r += lanes)
+    for (int c = 0; c < columns; ++c)
+      sum[c] += load(below + c * stride + r) * load(x + r);
+  for (int c = 0; c < columns; ++c)
+    own[p + c] -= sum_of(sum[c]);
+}
+
+inline void solve_upper(const SupernodeColumns &node, double *own, const double *x, double *scratch)
+{
+  for (int i = 0; i < node.n_below; ++i)
+    scratch[i] = x[node.rows[i]];
+  for (int i = node.n_below; i < padded(node.n_below); ++i)
+    scratch[i] = 0;
+  int p = 0;
+  for (; node.n_columns - p >= 6; p += 6)
+    subtract_products<6>(node, p, scratch, own);
+  for (; p < node.n_columns; p += 3)
+    subtract_products<3>(node, p, scratch, own);
   for (int j = node.n_columns - 1; j >= 0; --j)
   {
-    const double *column = node.values + j * stride;
+    const double *column = node.values + j * static_cast<long>(node.stride());
     for (int i = j + 1; i < node.n_columns; ++i)
       own[j] -= column[i] * own[i];
     own[j] *= node.inverse_diagonal[j];

@@ -74,10 +74,11 @@ struct Kernels
   /// target(run targets - shift) += update(runs), for the columns of runs first_run ... last_run - 1.
   void (*extend_add)(const double *update, int update_stride, const Run *runs, int first_run, int last_run, int n_runs,
                      double *target, int target_stride, int shift);
-  /// x <- L^-1 x for one supernode: its own entries, then what they take from the rows below.
-  void (*solve_lower)(const SupernodeColumns &columns, double *own, double *x);
+  /// x <- L^-1 x for one supernode: its own entries, then what they take from the rows below. `scratch`: padded(n_below)
+  /// doubles, aligned.
+  void (*solve_lower)(const SupernodeColumns &columns, double *own, double *x, double *scratch);
   /// x <- L^-T x for one supernode.
-  void (*solve_upper)(const SupernodeColumns &columns, double *own, const double *x);
+  void (*solve_upper)(const SupernodeColumns &columns, double *own, const double *x, double *scratch);
   /// The same as solve_lower for many right-hand sides. `first` is the supernode's first unknown.
   void (*eliminate)(const SupernodeColumns &columns, int first, const RightSides &sides);
   /// products(i, j) += sum over the supernode's unknowns of (sides of group i) (sides of group j)^T, for i >= j: tile

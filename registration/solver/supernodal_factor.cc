@@ -48,6 +48,10 @@ void SupernodalFactor::make_fronts(const SupernodeTree &tree)
     children_.insert(children_.end(), children[s].begin(), children[s].end());
     fronts_[s].last_child = static_cast<int>(children_.size());
   }
+  int most_below = 0;
+  for (const Front &front : fronts_)
+    most_below = std::max(most_below, front.n_below);
+  scratch_.require(padded(most_below));
   values_.require(n_values);
   inverse_diagonal_.require(n_rows_);
 }
@@ -174,13 +178,13 @@ bool SupernodalFactor::factorise(const SymmetricBlockMatrix &matrix)
 void SupernodalFactor::solve_lower(double *x) const
 {
   for (int s = 0; s < n_supernodes(); ++s)
-    kernels_->solve_lower(columns(s), x + first_column(s), x);
+    kernels_->solve_lower(columns(s), x + first_column(s), x, scratch_.data());
 }
 
 void SupernodalFactor::solve_upper(double *x) const
 {
   for (int s = n_supernodes() - 1; s >= 0; --s)
-    kernels_->solve_upper(columns(s), x + first_column(s), x);
+    kernels_->solve_upper(columns(s), x + first_column(s), x, scratch_.data());
 }
 
 void SupernodalFactor::solve(Eigen::Ref<Eigen::VectorXd> x) const

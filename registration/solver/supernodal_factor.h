@@ -73,6 +73,7 @@ private:
   std::vector<kernels::Run> runs_;
   std::vector<int> block_places_; ///< in its front's columns, of every block of A
   kernels::AlignedArray values_, inverse_diagonal_;
+  kernels::AlignedArray scratch_; ///< of one solve: a factor serves one thread at a time
   /// Update matrices that wait for their parents, last in first out: those of even and of odd depth apart, so that a
   /// front's own matrix does not bury its children's.
   kernels::AlignedArray stacks_[2];

@@ -3,7 +3,8 @@
 #include <cholmod.h>
 
 #include <algorithm>
-#include <memory>
+#include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -28,6 +29,13 @@ public:
     common_.print = 0;
     common_.error_handler = nullptr;
     common_.supernodal = CHOLMOD_SUPERNODAL;
+    // CHOLMOD's own limits for merging supernodes (4, 16, 48 columns), which it counts in columns, in nodes.
+    std::copy_n(std::array<std::size_t, 3>{2, 5, 16}.begin(), 3, common_.nrelax);
+    // The one with the least fill. Nested dissection has 5 % less on an organ, 10 % less at ten times its size, and a
+    // shallower tree.
+    common_.nmethods = 2;
+    common_.method[0].ordering = CHOLMOD_AMD;
+    common_.method[1].ordering = CHOLMOD_NESDIS;
     if (order == Order::given)
     {
       common_.nmethods = 1;

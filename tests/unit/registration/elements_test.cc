@@ -197,6 +197,31 @@ TEST(Tetrahedron, IsIndifferentToTheNumberingOfItsNodes)
   }
 }
 
+TEST(Hexahedron, IsIndifferentToTheNumberingOfItsNodes)
+{
+  const auto rest = rest_shape<Hexahedron>();
+  const Hexahedron::NodalVectors bent = rest + 0.3 * Hexahedron::NodalVectors::Random();
+  const Hexahedron element(rest, material);
+  const Eigen::Matrix3d rotation = element.rotation(bent);
+  const auto force = element.force(rotation, bent);
+  // A quarter turn of the reference cube about z and one about x: together they make all 24 orders.
+  for (const std::array<int, 8> &order : {std::array{1, 2, 3, 0, 5, 6, 7, 4}, std::array{3, 2, 6, 7, 0, 1, 5, 4}})
+  {
+    Hexahedron::NodalVectors rest_2, bent_2, force_1;
+    for (int a = 0; a < 8; ++a)
+    {
+      rest_2.col(a) = rest.col(order[a]);
+      bent_2.col(a) = bent.col(order[a]);
+      force_1.col(a) = force.col(order[a]);
+    }
+    ASSERT_GT(Hexahedron::least_jacobian(rest_2), 0);
+    const Hexahedron renumbered(rest_2, material);
+    const Eigen::Matrix3d rotation_2 = renumbered.rotation(bent_2);
+    EXPECT_LE((rotation_2 - rotation).norm(), 1e-12);
+    EXPECT_LE((renumbered.force(rotation_2, bent_2) - force_1).norm(), 1e-11 * force.norm());
+  }
+}
+
 TEST(Hexahedron, HasSixRigidModesAndNoOtherFreeOne)
 {
   const Hexahedron element(rest_shape<Hexahedron>(), material);
