@@ -34,6 +34,8 @@ int EquilibriumSystem::add_unknowns(int count, const UnknownGroup &group)
 void EquilibriumSystem::add_term(std::shared_ptr<Term> term)
 {
   terms_.push_back(std::move(term));
+  items_.emplace_back();
+  items_changed_.push_back(1);
   pattern_is_current_ = false;
 }
 
@@ -57,8 +59,7 @@ int EquilibriumSystem::n_free() const
 void EquilibriumSystem::assemble(const Eigen::VectorXd &solution, bool with_tangent)
 {
   update_terms(solution);
-  if (!pattern_is_current_)
-    build_pattern();
+  refresh_pattern();
 
   residual_ = Eigen::VectorXd::Zero(n_unknowns());
   term_energies_.assign(terms_.size(), 0.0);
@@ -83,9 +84,9 @@ void EquilibriumSystem::update_terms(const Eigen::VectorXd &solution)
   if (solution.size() != n_unknowns())
     throw ComputationError("the solution has " + std::to_string(solution.size()) + " entries, the system " +
                            std::to_string(n_unknowns()) + " unknowns");
-  for (const auto &term : terms_)
-    if (term->update(solution))
-      pattern_is_current_ = false;
+  for (std::size_t term = 0; term < terms_.size(); ++term)
+    if (terms_[term]->update(solution))
+      items_changed_[term] = 1;
 }
 
 void EquilibriumSystem::evaluate_chunk(const Term &term, int begin, int end, const Eigen::VectorXd &solution,
@@ -127,18 +128,17 @@ void EquilibriumSystem::evaluate_chunk(const Term &term, int begin, int end, con
 
 void EquilibriumSystem::add_item(std::size_t term, int item, const LocalSystem &local, bool with_tangent)
 {
-  const std::size_t index = first_item_[term] + item;
-  const std::size_t begin = unknown_start_[index];
-  const int n = static_cast<int>(unknown_start_[index + 1] - begin);
+  const int n = items_[term].n_unknowns(item);
   if (local.residual.size() != n)
     throw ComputationError("item " + std::to_string(item) + " of term '" + terms_[term]->name() + "' gave " +
                            std::to_string(local.residual.size()) + " rows for " + std::to_string(n) + " unknowns");
+  const int *unknown = items_[term].unknowns(item);
   for (int i = 0; i < n; ++i)
-    residual_[item_unknown_[begin + i]] += local.residual[i];
+    residual_[unknown[i]] += local.residual[i];
   term_energies_[term] += local.energy;
   if (!with_tangent)
     return;
-  const int *location = location_.data() + location_start_[index];
+  const int *location = items_[term].locations(item);
   const double *entry = local.tangent.data();
   for (int k = 0; k < n * n; ++k)
     if (location[k] >= 0)
@@ -224,38 +224,27 @@ void EquilibriumSystem::end_step(bool accepted)
 
 // --- sparsity pattern -----------------------------------------------------------------------------------------------
 
-void EquilibriumSystem::build_pattern()
+void EquilibriumSystem::refresh_pattern()
 {
-  number_free_unknowns();
-  collect_items();
-  // Items of every free unknown, so that each column is the union of few short lists.
-  std::vector<std::vector<int>> items_of(tangent_.n);
-  const int n_items = static_cast<int>(unknown_start_.size()) - 1;
-  for (int item = 0; item < n_items; ++item)
-    for (std::size_t k = unknown_start_[item]; k < unknown_start_[item + 1]; ++k)
-      if (const int column = free_index_[item_unknown_[k]]; column >= 0)
-        items_of[column].push_back(item);
-
-  std::vector<int> last_column(tangent_.n, -1);
-  tangent_.column_start.assign(1, 0);
-  tangent_.row.clear();
-  for (int column = 0; column < tangent_.n; ++column)
+  bool is_complete = pattern_is_current_;
+  if (!pattern_is_current_)
   {
-    // A diagonal entry everywhere: saddle-point rows have none of their own.
-    last_column[column] = column;
-    tangent_.row.push_back(column);
-    for (const int item : items_of[column])
-      for (std::size_t k = unknown_start_[item]; k < unknown_start_[item + 1]; ++k)
-        if (const int row = free_index_[item_unknown_[k]]; row >= 0 && last_column[row] != column)
-        {
-          last_column[row] = column;
-          tangent_.row.push_back(row);
-        }
-    std::sort(tangent_.row.begin() + tangent_.column_start.back(), tangent_.row.end());
-    tangent_.column_start.push_back(static_cast<int>(tangent_.row.size()));
+    number_free_unknowns();
+    std::fill(items_changed_.begin(), items_changed_.end(), 1);
   }
-  tangent_.value.assign(tangent_.row.size(), 0.0);
-  locate_entries();
+  for (std::size_t term = 0; term < terms_.size(); ++term)
+    if (items_changed_[term])
+    {
+      items_[term].collect(*terms_[term]);
+      is_complete = is_complete && items_[term].locate(tangent_, free_index_);
+      items_changed_[term] = 0;
+    }
+  if (is_complete)
+    return;
+  const int n_free_unknowns = n_free();
+  tangent_ = joined_pattern(items_, free_index_, n_free_unknowns, pattern_is_current_ ? tangent_ : SparseMatrix{});
+  for (ItemPattern &items : items_)
+    items.locate(tangent_, free_index_);
   pattern_is_current_ = true;
   analysed_ = false;
   ++n_patterns_built_;
@@ -264,53 +253,10 @@ void EquilibriumSystem::build_pattern()
 void EquilibriumSystem::number_free_unknowns()
 {
   free_index_.assign(n_unknowns(), -1);
-  tangent_.n = 0;
+  int n = 0;
   for (int i = 0; i < n_unknowns(); ++i)
     if (!is_fixed_[i])
-      free_index_[i] = tangent_.n++;
+      free_index_[i] = n++;
 }
 
-void EquilibriumSystem::collect_items()
-{
-  first_item_.assign(1, 0);
-  unknown_start_.assign(1, 0);
-  item_unknown_.clear();
-  std::vector<int> indices;
-  for (const auto &term : terms_)
-  {
-    for (int item = 0; item < term->n_items(); ++item)
-    {
-      indices.clear();
-      term->unknowns(item, indices);
-      item_unknown_.insert(item_unknown_.end(), indices.begin(), indices.end());
-      unknown_start_.push_back(item_unknown_.size());
-    }
-    first_item_.push_back(unknown_start_.size() - 1);
-  }
-}
-
-void EquilibriumSystem::locate_entries()
-{
-  location_start_.assign(1, 0);
-  location_.clear();
-  for (std::size_t item = 0; item + 1 < unknown_start_.size(); ++item)
-  {
-    const int *unknown = item_unknown_.data() + unknown_start_[item];
-    const int n = static_cast<int>(unknown_start_[item + 1] - unknown_start_[item]);
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-      {
-        const int row = free_index_[unknown[i]], column = free_index_[unknown[j]];
-        if (row < 0 || column < 0)
-        {
-          location_.push_back(-1);
-          continue;
-        }
-        const auto begin = tangent_.row.begin() + tangent_.column_start[column];
-        const auto end = tangent_.row.begin() + tangent_.column_start[column + 1];
-        location_.push_back(static_cast<int>(std::lower_bound(begin, end, row) - tangent_.row.begin()));
-      }
-    location_start_.push_back(location_.size());
-  }
-}
 } // namespace pelvireg::reference_fe

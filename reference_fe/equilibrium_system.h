@@ -1,6 +1,7 @@
 // The equilibrium equations R(x) = 0: unknowns, terms, assembly, factorisation.
 #pragma once
 
+#include "reference_fe/item_pattern.h"
 #include "reference_fe/sparse_lu.h"
 #include "reference_fe/sparse_matrix.h"
 #include "reference_fe/term.h"
@@ -65,7 +66,8 @@ public:
   Eigen::VectorXd solve(const Eigen::VectorXd &rhs) const;
   /// Tangent over the free unknowns, numbered in ascending order of the unknowns (tests, inertia).
   const SparseMatrix &tangent() const { return tangent_; }
-  /// How often the sparsity pattern was built.
+  /// How often the sparsity pattern was built or enlarged, and analysed anew. It keeps the entries of pairs that have
+  /// parted: contact that comes back, and most that moves on, finds its entries there.
   int n_patterns_built() const { return n_patterns_built_; }
   double n_factor_entries() const { return lu_.n_factor_entries(); }
 
@@ -77,9 +79,8 @@ public:
 private:
   void update_terms(const Eigen::VectorXd &solution);
   void number_free_unknowns();
-  void build_pattern();
-  void collect_items();
-  void locate_entries();
+  /// Take in the new items of the terms that have changed; build or enlarge the pattern where it lacks their entries.
+  void refresh_pattern();
   void evaluate_chunk(const Term &term, int begin, int end, const Eigen::VectorXd &solution, bool with_tangent);
   void add_item(std::size_t term, int item, const LocalSystem &local, bool with_tangent);
 
@@ -89,17 +90,13 @@ private:
   std::vector<double> residual_scale_;
   std::vector<std::shared_ptr<Term>> terms_;
 
+  /// False: other unknowns are free, or a term was added; the pattern is made from nothing.
   bool pattern_is_current_ = false;
   bool analysed_ = false;
   int n_patterns_built_ = 0;
-  std::vector<int> free_index_; ///< of every unknown, -1 when fixed
-
-  /// Unknowns of all items of all terms, one after the other, and where their tangents go.
-  std::vector<std::size_t> first_item_;    ///< of every term, + total
-  std::vector<std::size_t> unknown_start_; ///< of every item, + total
-  std::vector<int> item_unknown_;
-  std::vector<std::size_t> location_start_; ///< of every item, + total
-  std::vector<int> location_;               ///< into tangent_.value, column by column; -1: fixed row or column
+  std::vector<int> free_index_;     ///< of every unknown, -1 when fixed
+  std::vector<ItemPattern> items_;  ///< of every term
+  std::vector<char> items_changed_; ///< of every term, since the last refresh_pattern()
 
   std::vector<LocalSystem> chunk_;
   Eigen::VectorXd residual_;

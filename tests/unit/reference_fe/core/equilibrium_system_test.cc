@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace pelvireg::reference_fe
 {
@@ -109,6 +110,59 @@ TEST(EquilibriumSystem, SparsityPatternIsKeptWhileNoTermChanges)
   system.fix(5);
   system.assemble(x, true);
   EXPECT_EQ(system.n_patterns_built(), 2);
+}
+
+/// A spring between two unknowns that can be moved to two others, as contact moves from facet to facet.
+class MovingSpring : public Term
+{
+public:
+  std::string name() const override { return "moving spring"; }
+  int n_items() const override { return 1; }
+  bool update(const Eigen::VectorXd &) override { return std::exchange(has_moved_, false); }
+  void unknowns(int, std::vector<int> &indices) const override { indices = {a_, b_}; }
+  void evaluate(int, const Eigen::VectorXd &x, LocalSystem &local) const override
+  {
+    const double force = 5 * (x[b_] - x[a_]);
+    local.residual = Eigen::Vector2d(-force, force);
+    local.tangent = (Eigen::Matrix2d() << 5, -5, -5, 5).finished();
+    local.energy = 0;
+  }
+  void move(int a, int b)
+  {
+    a_ = a;
+    b_ = b;
+    has_moved_ = true;
+  }
+
+private:
+  int a_ = 1, b_ = 5;
+  bool has_moved_ = false;
+};
+
+TEST(EquilibriumSystem, SparsityPatternGrowsWithNewPairsAndIsKeptWhenOldOnesComeBack)
+{
+  EquilibriumSystem system = chain(10, 8.0, 1), fresh = chain(10, 8.0, 1);
+  const auto spring = std::make_shared<MovingSpring>(), same = std::make_shared<MovingSpring>();
+  system.add_term(spring);
+  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(system.n_unknowns(), 0, 1);
+  const auto patterns_after = [&](int a, int b)
+  {
+    spring->move(a, b);
+    system.assemble(x, true);
+    return system.n_patterns_built();
+  };
+  EXPECT_EQ(patterns_after(1, 5), 1);
+  EXPECT_EQ(patterns_after(2, 7), 2);
+  EXPECT_EQ(patterns_after(1, 5), 2);
+  EXPECT_EQ(patterns_after(4, 5), 2); // neighbours in the chain have their entries already
+  EXPECT_EQ(patterns_after(2, 7), 2);
+  // Entries that nobody uses any more are zero: the solution is that of a system which never had them.
+  fresh.add_term(same);
+  same->move(2, 7);
+  fresh.assemble(x, true);
+  EXPECT_GT(system.tangent().n_entries(), fresh.tangent().n_entries());
+  ASSERT_TRUE(system.factorise() && fresh.factorise());
+  EXPECT_LT((system.solve(system.residual()) - fresh.solve(fresh.residual())).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(EquilibriumSystem, UnconstrainedPartIsReportedAsSingular)
