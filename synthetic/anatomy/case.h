@@ -22,6 +22,18 @@ std::vector<CaseSummary> built_in_cases();
 /// Throws InputError for an unknown name or an unreadable file.
 std::string case_text(const std::string &name_or_path);
 
+/// The case with one value replaced or added: `key` is a dotted path ("reference.shell_size", "cavity.bladder"), `value`
+/// TOML ("6.6", "{mode = 'open'}"). Comments are lost. Throws InputError for a text or value that is not TOML.
+std::string with_value(const std::string &text, const std::string &case_name, const std::string &key,
+                       const std::string &value);
+
+/// What the reference solver's problem depends on, in one canonical form: without comments, name, description and
+/// everything that only observation and registration read. Equal texts give equal truths. Throws InputError.
+std::string reference_text(const std::string &text, const std::string &case_name);
+
+/// The value of a number of the case, by its dotted path. Throws InputError when there is none.
+double number_in_case(const std::string &text, const std::string &case_name, const std::string &key);
+
 /// Read, check and build: case text (TOML) to the whole anatomy. Deterministic: the same text gives the same bytes.
 /// Throws InputError (one sentence: what, where, got, allowed, remedy) for an unknown key, a wrong type, a value out of
 /// range or organs that would overlap.
