@@ -30,10 +30,11 @@ std::string likely_cause(NewtonStatus status)
 } // namespace
 
 LoadStepper::LoadStepper(PelvisModel &model, const LoadStepperOptions &options)
-    : model_(model), options_(options), motion_(options.motion)
+    : model_(model), options_(options), motion_(options.motion), work_(model.load, model.cavities)
 {
   current_.solution = Eigen::VectorXd::Zero(model.system.n_unknowns());
   previous_ = current_;
+  work_.advance(current_.solution);
 }
 
 StepEffort LoadStepper::start(double target)
@@ -80,6 +81,7 @@ StepEffort LoadStepper::advance_to(double target)
 
 void LoadStepper::control_step(bool lands, double target, double ratio)
 {
+  begin_step(lands ? target : current_.displacement + ratio * (current_.displacement - previous_.displacement));
   if (lands)
   {
     model_.path->release();
@@ -88,6 +90,13 @@ void LoadStepper::control_step(bool lands, double target, double ratio)
   }
   model_.probe->release();
   model_.path->prescribe(current_.solution, current_.solution + ratio * (current_.solution - previous_.solution));
+}
+
+void LoadStepper::begin_step(double displacement)
+{
+  step_end_ = std::max(current_.load_parameter, displacement / options_.increment);
+  for (const std::shared_ptr<Cavity> &cavity : model_.cavities)
+    cavity->begin_step(step_end_);
 }
 
 bool LoadStepper::try_step(double ratio, double largest_displacement, StepEffort &effort)
@@ -150,6 +159,7 @@ void LoadStepper::solve_equilibrium(Eigen::VectorXd &trial, StepEffort &effort)
   newton.residual_tolerance = options_.residual_tolerance;
   newton.max_iterations = options_.max_iterations;
   newton.max_halvings = options_.max_halvings;
+  newton.log = options_.log;
   for (const bool mixed : {true, false})
   {
     for (const std::shared_ptr<ShellTerm> &shell : model_.shells)
@@ -171,7 +181,11 @@ void LoadStepper::accept(Eigen::VectorXd trial)
   previous_ = std::move(current_);
   current_.displacement = model_.probe->mean_displacement(trial);
   current_.pressure = trial[model_.pressure_unknown];
+  for (const std::shared_ptr<Cavity> &cavity : model_.cavities)
+    cavity->accept_step(trial);
+  current_.load_parameter = step_end_;
   current_.solution = std::move(trial);
+  work_.advance(current_.solution);
 }
 
 double LoadStepper::motion_between(const Eigen::VectorXd &from, const Eigen::VectorXd &to) const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "reference_fe/newton_solver.h"
+#include "reference_fe/path_work.h"
 #include "reference_fe/pelvis_model.h"
 
 #include <functional>
@@ -11,6 +12,7 @@ namespace pelvireg::reference_fe
 {
 struct LoadStepperOptions
 {
+  double increment = 1;             ///< mm of displacement a unit of the load parameter, by which cavities leak or fill
   double residual_tolerance = 1e-6; ///< N, largest scaled free residual of a converged state
   double start_pressure = 2e-6;     ///< MPa, first prescribed pressure
   double start_displacement = 0.02; ///< fraction of the target from which on the displacement is prescribed
@@ -21,7 +23,7 @@ struct LoadStepperOptions
   int max_iterations = 12;          ///< of Newton's method, a solution
   int max_halvings = 2;             ///< a solution that needs shorter steps is lost: a shorter load step is cheaper
   int max_contact_searches = 6;     ///< repetitions of a step until the pairs in contact settle
-  std::function<void(const std::string &)> log = {}; ///< one line a step; may be empty
+  std::function<void(const std::string &)> log = {}; ///< one line a step and a Newton iteration; may be empty
 };
 
 /// What it took to reach a target.
@@ -37,6 +39,8 @@ struct StepEffort
 /// positions, cavity pressures and the abdominal pressure together. At rest that displacement has no derivative, and
 /// organs that hang loosely settle before the vagina moves: the path begins with prescribed pressures.
 /// Steps are as long as lets no surface point move farther than contact can follow.
+/// The load parameter is the displacement in increments: exactly where a target is reached, as predicted at the steps
+/// between, and it stands still while the path goes back and until start() is over. Per increment it grows by one.
 class LoadStepper
 {
 public:
@@ -51,18 +55,22 @@ public:
 
   const Eigen::VectorXd &solution() const { return current_.solution; }
   double displacement() const { return current_.displacement; } ///< mm
+  const PathWork &work() const { return work_; }                ///< from rest to solution()
 
 private:
   struct State
   {
     Eigen::VectorXd solution;
-    double displacement = 0; ///< mm
-    double pressure = 0;     ///< MPa
+    double displacement = 0;   ///< mm
+    double pressure = 0;       ///< MPa
+    double load_parameter = 0; ///< increments
   };
   /// One step along the path: predictor current + ratio (current - previous), equilibrium, acceptance. False: cut.
   /// A step past `largest_displacement` (mm) is thrown away too.
   bool try_step(double ratio, double largest_displacement, StepEffort &effort);
   void control_step(bool lands, double target, double ratio);
+  /// Tell the cavities that the step to be solved is to end at this displacement, mm.
+  void begin_step(double displacement);
   /// Equilibrium with settled contact pairs, from `trial`; false when Newton's method fails.
   bool solve(Eigen::VectorXd &trial, StepEffort &effort);
   /// Newton's method with the shells' mixed integration points, which take a third of the iterations; where they do
@@ -76,7 +84,9 @@ private:
   PelvisModel &model_;
   LoadStepperOptions options_;
   State previous_, current_;
-  double motion_;            ///< mm, what the steps aim at now: options_.motion, less after cuts
+  double step_end_ = 0; ///< load parameter at the end of the step to be solved
+  double motion_;       ///< mm, what the steps aim at now: options_.motion, less after cuts
+  PathWork work_;
   NewtonResult last_result_; ///< of the last solution, for the message when it failed
 };
 } // namespace pelvireg::reference_fe

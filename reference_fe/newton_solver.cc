@@ -90,7 +90,7 @@ NewtonResult solve_newton(EquilibriumSystem &system, Eigen::VectorXd &solution, 
     const NewtonStatus step = take_step(system, solution, increment, options, step_length);
     result.iterations.push_back({residual, step_length * largest, step_length});
     if (options.log)
-      options.log(fmt::format("iteration {:2d}: residual {:.3e} N, increment {:.3e}, step length {:.3g}",
+      options.log(fmt::format("    iteration {:2d}: residual {:.3e} N, increment {:.3e}, step length {:.3g}",
                               result.iterations.size(), residual, step_length * largest, step_length));
     if (step != NewtonStatus::converged)
       return finish(step);

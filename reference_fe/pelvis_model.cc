@@ -1,6 +1,5 @@
 #include "reference_fe/pelvis_model.h"
 
-#include "reference_fe/constraints/follower_pressure.h"
 #include "reference_fe/elements/quadratic_tetrahedron.h"
 #include "reference_fe/elements/shell_term.h"
 #include "reference_fe/materials/yeoh.h"
@@ -24,23 +23,20 @@ using dataset::SurfaceRegion;
 class Parts
 {
 public:
-  Parts(const ReferenceModel &reference, EquilibriumSystem &system)
+  Parts(const ReferenceModel &reference, PelvisModel &model)
   {
+    EquilibriumSystem &system = model.system;
     for (const dataset::ReferenceShell &shell : reference.shells)
     {
       const int first = add_shell_unknowns(system, shell_body(shell));
       shells_[shell.name] = {&shell, first};
-      for (const std::int32_t node : shell.fixed_nodes)
-        for (int k = 0; k < 3; ++k)
-          system.fix(first + 7 * node + k);
+      hold(shell.name, shell.fixed_nodes, first, n_shell_unknowns, model);
     }
     for (const dataset::ReferenceSolid &solid : reference.solids)
     {
       const int first = system.add_unknowns(3 * static_cast<int>(solid.points.rows()), {solid.name});
       solids_[solid.name] = {&solid, first};
-      for (const std::int32_t node : solid.fixed_nodes)
-        for (int k = 0; k < 3; ++k)
-          system.fix(first + 3 * node + k);
+      hold(solid.name, solid.fixed_nodes, first, 3, model);
     }
   }
 
@@ -80,6 +76,21 @@ public:
   }
 
 private:
+  static void hold(const std::string &part, const dataset::Integers &nodes, int first, int n_unknowns_a_node,
+                   PelvisModel &model)
+  {
+    if (nodes.size() == 0)
+      return;
+    HeldNodes held{part, {}};
+    for (const std::int32_t node : nodes)
+    {
+      held.first_unknowns.push_back(first + n_unknowns_a_node * node);
+      for (int k = 0; k < 3; ++k)
+        model.system.fix(held.first_unknowns.back() + k);
+    }
+    model.held_nodes.push_back(std::move(held));
+  }
+
   std::map<std::string, std::pair<const dataset::ReferenceShell *, int>> shells_;
   std::map<std::string, std::pair<const dataset::ReferenceSolid *, int>> solids_;
 };
@@ -149,6 +160,10 @@ void add_cavities(const ReferenceModel &reference, const Parts &parts, PelvisMod
     const int pressure = model.system.add_unknowns(1, {"pressure of " + shell.name, 1e3});
     model.cavities.push_back(std::make_shared<Cavity>(shell.name, std::move(faces), pressure));
     model.system.add_term(model.cavities.back());
+    if (shell.cavity.mode == dataset::CavityMode::leak)
+      model.cavities.back()->leak(shell.cavity.leak_rate);
+    if (shell.cavity.mode == dataset::CavityMode::pressure)
+      model.cavities.back()->prescribe_pressure(shell.cavity.pressure / reference.n_increments);
   }
 }
 
@@ -210,7 +225,8 @@ void add_load(const dataset::Anatomy &anatomy, const Parts &parts, PelvisModel &
   if (loaded.empty())
     throw InputError("no part has a cell of region peritoneal, so nothing carries the abdominal pressure; mark the "
                      "peritoneal surfaces in the anatomy");
-  model.system.add_term(std::make_shared<FollowerPressure>(std::move(loaded), model.pressure_unknown));
+  model.load = std::make_shared<FollowerPressure>(std::move(loaded), model.pressure_unknown);
+  model.system.add_term(model.load);
   for (const OuterSurface &surface : model.surfaces)
     if (surface.part == "vagina")
       model.probe = std::make_shared<DisplacementProbe>(
@@ -236,7 +252,7 @@ PelvisModel build_pelvis_model(const dataset::Anatomy &anatomy, int n_threads)
 {
   PelvisModel model(n_threads);
   const ReferenceModel &reference = anatomy.reference;
-  const Parts parts(reference, model.system);
+  const Parts parts(reference, model);
   for (const dataset::ReferenceShell &shell : reference.shells)
     model.surfaces.push_back(outer_surface(shell, parts.first_unknown(shell.name)));
   for (const dataset::ReferenceSolid &solid : reference.solids)

@@ -8,19 +8,25 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 namespace pelvireg::reference_fe
 {
 namespace
 {
-std::string describe(int increment, int n_increments, const dataset::IncrementRecord &record, int unsettled_steps)
+constexpr double largest_energy_error = 1; // percent of the external work
+
+std::string describe(int increment, int n_increments, const dataset::IncrementRecord &record,
+                     const dataset::BalanceRecord &balance, int unsettled_steps)
 {
+  const bool is_balanced = std::abs(balance.energy_error_percent) <= largest_energy_error;
   return fmt::format("increment {} of {}: vagina {:.2f} mm, pressure {:.2f} kPa, {} iterations, {} cuts, penetration "
-                     "{:.3f} mm{}",
+                     "{:.3f} mm{}{}",
                      increment, n_increments, record.mean_vaginal_displacement, 1e3 * record.pressure,
                      record.newton_iterations, record.cuts, record.max_penetration,
-                     unsettled_steps > 0 ? fmt::format(", contact unsettled in {} steps", unsettled_steps) : "");
+                     unsettled_steps > 0 ? fmt::format(", contact unsettled in {} steps", unsettled_steps) : "",
+                     is_balanced ? "" : fmt::format(", energy balance off by {:.2f} %", balance.energy_error_percent));
 }
 } // namespace
 
@@ -38,6 +44,7 @@ dataset::Truth solve_reference(const dataset::Anatomy &anatomy, const ReferenceO
 
   LoadStepperOptions stepping;
   stepping.log = options.log;
+  stepping.increment = anatomy.reference.target_displacement / anatomy.reference.n_increments;
   LoadStepper stepper(model, stepping);
   StepEffort settling = stepper.start(anatomy.reference.target_displacement);
   const int n = anatomy.reference.n_increments;
@@ -50,14 +57,14 @@ dataset::Truth solve_reference(const dataset::Anatomy &anatomy, const ReferenceO
       effort.newton_iterations += std::exchange(settling.newton_iterations, 0);
       effort.cuts += std::exchange(settling.cuts, 0);
       effort.unsettled_steps += std::exchange(settling.unsettled_steps, 0);
-      recorder.record(stepper.solution(), effort);
+      recorder.record(stepper.solution(), effort, stepper.work());
     }
     catch (const ComputationError &error)
     {
       throw ComputationError(fmt::format("increment {} of {}: {}", increment, n, error.what()));
     }
-    report(static_cast<double>(increment) / n,
-           describe(increment, n, recorder.truth().increments.back(), effort.unsettled_steps));
+    report(static_cast<double>(increment) / n, describe(increment, n, recorder.truth().increments.back(),
+                                                        recorder.truth().balances.back(), effort.unsettled_steps));
   }
   return recorder.truth();
 }

@@ -14,7 +14,8 @@ struct ReferenceOptions
   int n_threads = 1; ///< assembly threads; the result is bit-identical for every value
   /// Called as the solve goes on: fraction done (0 … 1) and one line of what happened.
   std::function<void(double, const std::string &)> progress;
-  /// One line a step of the load stepper, for those who look for the cause of a failure; may be empty.
+  /// One line a step of the load stepper and an iteration of Newton's method, for those who look for the cause of a
+  /// failure; may be empty.
   std::function<void(const std::string &)> log = {};
 };
 

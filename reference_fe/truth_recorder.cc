@@ -27,7 +27,7 @@ dataset::Points bar_ends(const Bar &bar, const Eigen::VectorXd &solution)
 } // namespace
 
 TruthRecorder::TruthRecorder(const PelvisModel &model, const std::string &case_name)
-    : model_(model), surfaces_(in_table_order(model.surfaces))
+    : model_(model), surfaces_(in_table_order(model.surfaces)), forces_(model)
 {
   truth_.case_name = case_name;
   truth_.source = "pelvireg reference (deal.II)";
@@ -45,6 +45,14 @@ TruthRecorder::TruthRecorder(const PelvisModel &model, const std::string &case_n
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(model.system.n_unknowns());
   for (const Bar &bar : model.bars)
     truth_.trusses.push_back({bar.group, bar_ends(bar, rest), {}});
+  for (int term = 0; term + 1 < model.n_strain_terms; ++term)
+    truth_.energy_parts.push_back(model.system.terms()[static_cast<std::size_t>(term)]->name());
+  for (const Bar &bar : model.bars)
+    if (std::find(bar_groups_.begin(), bar_groups_.end(), bar.group) == bar_groups_.end())
+      bar_groups_.push_back(bar.group);
+  for (const std::string &group : bar_groups_)
+    truth_.energy_parts.push_back("bars " + group);
+  truth_.supports = forces_.supports();
   truth_.cavity_rest_volumes.resize(static_cast<Eigen::Index>(model.cavities.size()));
   for (std::size_t c = 0; c < model.cavities.size(); ++c)
   {
@@ -53,7 +61,40 @@ TruthRecorder::TruthRecorder(const PelvisModel &model, const std::string &case_n
   }
 }
 
-void TruthRecorder::record(const Eigen::VectorXd &solution, const StepEffort &effort)
+/// Strain energy by part, what contact and ties store, and what is left of the external work.
+dataset::BalanceRecord TruthRecorder::balance(const Eigen::VectorXd &solution, const PathWork &work) const
+{
+  dataset::BalanceRecord record;
+  record.external_work = work.external_work();
+  record.work_uncertainty = work.uncertainty();
+  record.cavity_work = work.cavity_work();
+  const std::vector<double> &energies = model_.system.term_energies();
+  const int n_parts = model_.n_strain_terms - 1; // the last of them is the term of all bars
+  record.strain_energy = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(truth_.energy_parts.size()));
+  for (int part = 0; part < n_parts; ++part)
+    record.strain_energy[part] = energies[static_cast<std::size_t>(part)];
+  for (const Bar &bar : model_.bars)
+    record.strain_energy[n_parts + (std::find(bar_groups_.begin(), bar_groups_.end(), bar.group) -
+                                    bar_groups_.begin())] += bar_energy(bar, solution);
+  const auto energy_of = [&](const Term *term)
+  {
+    const auto &terms = model_.system.terms();
+    const auto found = std::find_if(terms.begin(), terms.end(), [&](const auto &other) { return other.get() == term; });
+    return found == terms.end() ? 0 : energies[static_cast<std::size_t>(found - terms.begin())];
+  };
+  record.contact_energy = energy_of(model_.contact.get());
+  for (const std::shared_ptr<Tie> &tie : model_.ties)
+    record.tie_energy += energy_of(tie.get());
+  const double balanced =
+      record.strain_energy.sum() + record.contact_energy + record.tie_energy + record.cavity_work.sum();
+  record.energy_error_percent = 100 * (record.external_work - balanced) / record.external_work;
+  record.reactions = forces_.reactions(solution);
+  record.pressure_resultant = forces_.pressure_resultant(solution);
+  record.force_error = (record.reactions.colwise().sum().transpose() + record.pressure_resultant).norm();
+  return record;
+}
+
+void TruthRecorder::record(const Eigen::VectorXd &solution, const StepEffort &effort, const PathWork &work)
 {
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
   {
@@ -86,5 +127,6 @@ void TruthRecorder::record(const Eigen::VectorXd &solution, const StepEffort &ef
     increment.cavity_pressures[c] = solution[cavity.pressure_unknown()];
   }
   truth_.increments.push_back(std::move(increment));
+  truth_.balances.push_back(balance(solution, work));
 }
 } // namespace pelvireg::reference_fe

@@ -36,6 +36,22 @@ void differentiate_volume(const Eigen::Matrix3Xd &x, Eigen::VectorXd &gradient, 
                                              (q.d_xi[i] * q.d_eta[j] - q.d_eta[i] * q.d_xi[j]) * s0;
   }
 }
+
+constexpr double leak_onset = 1e-5; // MPa
+
+/// r(q) and its slope.
+struct Outflow
+{
+  double value = 0, slope = 0;
+};
+Outflow outflow(double q)
+{
+  if (q <= 0)
+    return {};
+  if (q < leak_onset)
+    return {q * q / (2 * leak_onset), q / leak_onset};
+  return {q - leak_onset / 2, 1};
+}
 } // namespace
 
 Cavity::Cavity(std::string name, std::vector<SurfaceFace> faces, int pressure_unknown)
@@ -50,6 +66,42 @@ Cavity::Cavity(std::string name, std::vector<SurfaceFace> faces, int pressure_un
     rest_volume_ += item_rest_volume_.back();
   }
   held_volume_ = rest_volume_;
+}
+
+void Cavity::hold_volume(double volume)
+{
+  control_ = Control::volume;
+  held_volume_ = volume;
+}
+
+void Cavity::leak(double rate)
+{
+  control_ = Control::leak;
+  rate_ = rate;
+}
+
+void Cavity::prescribe_pressure(double rate)
+{
+  control_ = Control::pressure;
+  rate_ = rate;
+}
+
+void Cavity::accept_step(const Eigen::VectorXd &solution)
+{
+  if (control_ == Control::leak)
+    held_volume_ += fluid_row(solution[pressure_]).value;
+  load_parameter_ = step_end_;
+}
+
+Cavity::Row Cavity::fluid_row(double q) const
+{
+  if (control_ == Control::volume)
+    return {};
+  if (control_ == Control::pressure)
+    return {rest_volume_ * (q - rate_ * step_end_), rest_volume_};
+  const double leaked = rate_ * (step_end_ - load_parameter_);
+  const Outflow flow = outflow(q);
+  return {-leaked * flow.value, -leaked * flow.slope};
 }
 
 double Cavity::volume(const Eigen::VectorXd &solution) const
@@ -78,13 +130,22 @@ void Cavity::evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &lo
   Eigen::MatrixXd hessian;
   differentiate_volume(x, gradient, hessian);
 
-  Eigen::VectorXd force(n + 1);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(n + 1);
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n + 1, n + 1);
-  const double held = item_rest_volume_[item] * (held_volume_ / rest_volume_); // its share of V0
-  force << -q * gradient, held - face_volume(x);
+  force.head(n) = -q * gradient;
   stiffness.topLeftCorner(n, n) = -q * hessian;
   stiffness.topRightCorner(n, 1) = -gradient;
-  stiffness.bottomLeftCorner(1, n) = -gradient.transpose();
+  if (control_ != Control::pressure)
+  {
+    force[n] = item_rest_volume_[item] * (held_volume_ / rest_volume_) - face_volume(x); // its share of V0 - V
+    stiffness.bottomLeftCorner(1, n) = -gradient.transpose();
+  }
+  if (item == 0)
+  {
+    const Row row = fluid_row(q);
+    force[n] += row.value;
+    stiffness(n, n) = row.slope;
+  }
   to_unknowns(nodes, solution, force, stiffness, 1, local);
   local.energy = 0;
 }

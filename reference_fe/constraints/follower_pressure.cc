@@ -42,4 +42,24 @@ void FollowerPressure::evaluate(int item, const Eigen::VectorXd &solution, Local
   to_unknowns(nodes, solution, force, stiffness, 1, local);
   local.energy = 0;
 }
+
+Eigen::Vector3d FollowerPressure::resultant(const Eigen::VectorXd &solution) const
+{
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();
+  for (const SurfaceFace &face : faces_)
+  {
+    const Eigen::Matrix3Xd x = positions(face.nodes, solution);
+    for (const FacePoint &q : face_quadrature(static_cast<int>(x.cols())))
+      area += q.weight * Eigen::Vector3d(x * q.d_xi).cross(x * q.d_eta);
+  }
+  return -solution[pressure_] * area;
+}
+
+double swept_rate(const Eigen::Matrix3Xd &positions, const Eigen::Matrix3Xd &velocities)
+{
+  double rate = 0;
+  for (const FacePoint &q : face_quadrature(static_cast<int>(positions.cols())))
+    rate += q.weight * (velocities * q.value).dot(Eigen::Vector3d(positions * q.d_xi).cross(positions * q.d_eta));
+  return rate;
+}
 } // namespace pelvireg::reference_fe

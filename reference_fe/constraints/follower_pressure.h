@@ -19,8 +19,17 @@ public:
   void unknowns(int item, std::vector<int> &indices) const override;
   void evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &local) const override;
 
+  const std::vector<SurfaceFace> &faces() const { return faces_; }
+  int pressure_unknown() const { return pressure_; }
+  /// Sum of the forces on the faces, N.
+  Eigen::Vector3d resultant(const Eigen::VectorXd &solution) const;
+
 private:
   std::vector<SurfaceFace> faces_;
   int pressure_;
 };
+
+/// Rate at which a face sweeps volume outward, int v . (x,xi cross x,eta): nodal positions (mm) and velocities (mm/s),
+/// a column a node; mm^3/s.
+double swept_rate(const Eigen::Matrix3Xd &positions, const Eigen::Matrix3Xd &velocities);
 } // namespace pelvireg::reference_fe

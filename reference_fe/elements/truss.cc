@@ -11,6 +11,23 @@ Eigen::Vector3d rest_vector(const Bar &bar)
   const Eigen::Vector3d end = bar.nodes.size() == 2 ? bar.nodes[1].rest_position() : bar.fixed_end;
   return end - bar.nodes[0].rest_position();
 }
+
+/// Of a bar at a solution.
+struct StretchedBar
+{
+  double rest_length = 0, length = 0;
+  Eigen::Vector3d axis; // unit, from the first node
+  UniaxialResponse response;
+
+  StretchedBar(const Bar &bar, const Eigen::VectorXd &solution) : rest_length(rest_vector(bar).norm())
+  {
+    const Eigen::Vector3d end = bar.nodes.size() == 2 ? bar.nodes[1].position(solution) : bar.fixed_end;
+    const Eigen::Vector3d span = end - bar.nodes[0].position(solution);
+    length = span.norm();
+    axis = span / length;
+    response = uniaxial_response(bar.material, length / rest_length);
+  }
+};
 } // namespace
 
 UniaxialResponse uniaxial_response(const dataset::YeohMaterial &m, double lambda)
@@ -19,6 +36,18 @@ UniaxialResponse uniaxial_response(const dataset::YeohMaterial &m, double lambda
   const double w1 = m.c10 + 2 * m.c20 * e + 3 * m.c30 * e * e, w2 = 2 * m.c20 + 6 * m.c30 * e;
   const double d1 = 2 * (lambda - 1 / (lambda * lambda)), d2 = 2 + 4 / (lambda * lambda * lambda);
   return {m.c10 * e + m.c20 * e * e + m.c30 * e * e * e, w1 * d1, w1 * d2 + w2 * d1 * d1};
+}
+
+double bar_energy(const Bar &bar, const Eigen::VectorXd &solution)
+{
+  const StretchedBar state(bar, solution);
+  return bar.area * state.rest_length * state.response.energy;
+}
+
+Eigen::Vector3d bar_pull(const Bar &bar, const Eigen::VectorXd &solution)
+{
+  const StretchedBar state(bar, solution);
+  return bar.area * state.response.stress * state.axis;
 }
 
 Trusses::Trusses(std::vector<Bar> bars) : bars_(std::move(bars)) {}
@@ -34,18 +63,14 @@ void Trusses::evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &l
   const Bar &bar = bars_[item];
   unknowns(item, local.unknowns);
   const bool two_nodes = bar.nodes.size() == 2;
-  const double rest_length = rest_vector(bar).norm();
-  const Eigen::Vector3d end = two_nodes ? bar.nodes[1].position(solution) : bar.fixed_end;
-  const Eigen::Vector3d span = end - bar.nodes[0].position(solution);
-  const double length = span.norm();
-  const Eigen::Vector3d axis = span / length;
-  const UniaxialResponse response = uniaxial_response(bar.material, length / rest_length);
+  const StretchedBar state(bar, solution);
 
-  const Eigen::Vector3d pull = bar.area * response.stress * axis;
-  const Eigen::Matrix3d along = axis * axis.transpose();
-  const Eigen::Matrix3d stiffness = bar.area * response.modulus / rest_length * along +
-                                    bar.area * response.stress / length * (Eigen::Matrix3d::Identity() - along);
-  local.energy = bar.area * rest_length * response.energy;
+  const Eigen::Vector3d pull = bar.area * state.response.stress * state.axis;
+  const Eigen::Matrix3d along = state.axis * state.axis.transpose();
+  const Eigen::Matrix3d stiffness =
+      bar.area * state.response.modulus / state.rest_length * along +
+      bar.area * state.response.stress / state.length * (Eigen::Matrix3d::Identity() - along);
+  local.energy = bar.area * state.rest_length * state.response.energy;
   const int n = two_nodes ? 6 : 3;
   local.residual.resize(n);
   local.tangent.resize(n, n);

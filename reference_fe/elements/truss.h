@@ -31,6 +31,11 @@ struct UniaxialResponse
 /// as well as pulled, and an organ that rests on slack bars alone would be a mechanism.
 UniaxialResponse uniaxial_response(const dataset::YeohMaterial &material, double lambda);
 
+double bar_energy(const Bar &bar, const Eigen::VectorXd &solution); ///< N mm
+/// Force of the bar on its first node, N: towards the other end where the bar is stretched. The other end gets its
+/// opposite.
+Eigen::Vector3d bar_pull(const Bar &bar, const Eigen::VectorXd &solution);
+
 /// Hyperelastic bars at finite strain: energy A L W(l / L).
 class Trusses : public Term
 {

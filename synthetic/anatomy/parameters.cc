@@ -157,6 +157,33 @@ Support read_support(TableReader table, const Parameters &parameters)
   return support;
 }
 
+/// Units of the case file: kPa, and mm^3 per kPa and increment.
+CavityFilling read_cavity(TableReader table)
+{
+  constexpr double kPa = 1e-3; // MPa
+  CavityFilling filling;
+  const std::string mode = table.text("mode");
+  filling.is_open = mode == "open";
+  if (mode == "leak")
+    filling.control = {dataset::CavityMode::leak, table.number("rate", positive) / kPa, 0};
+  else if (mode == "pressure")
+    filling.control = {dataset::CavityMode::pressure, 0, table.number("pressure", {-100, 100, false}) * kPa};
+  else if (mode != "closed" && mode != "open")
+    table.fail("mode", fmt::format("is '{}', but one of closed, leak, pressure, open is needed; choose one.", mode));
+  table.finish();
+  return filling;
+}
+
+void read_cavities(TableReader table, Parameters &parameters)
+{
+  for (const std::string organ : {"bladder", "vagina", "rectum"})
+    if (table.has(organ))
+      parameters.cavities[organ] = read_cavity(table.table(organ));
+  for (const std::string &organ : table.keys())
+    if (!parameters.cavities.contains(organ))
+      table.fail(organ, "encloses no fluid; only bladder, vagina and rectum do: remove it or correct its name.");
+}
+
 void read_materials(TableReader table, Parameters &parameters)
 {
   const double ratio = table.number("kappa_over_2c10", {10, 1e5, false});
@@ -277,6 +304,8 @@ Parameters read_parameters(const std::string &text, const std::string &case_name
   read_retropubic(root.table("retropubic"), parameters);
   for (TableReader &support : root.tables("support"))
     parameters.supports.push_back(read_support(support, parameters));
+  if (root.has("cavity"))
+    read_cavities(root.table("cavity"), parameters);
   root.finish();
   return parameters;
 }

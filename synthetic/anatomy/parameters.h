@@ -66,6 +66,13 @@ struct Support
   std::vector<int> band_cells; ///< along, across, through the thickness
 };
 
+/// The fluid of bladder, vagina or rectum.
+struct CavityFilling
+{
+  bool is_open = false; ///< no fluid: only the wall
+  dataset::CavityControl control;
+};
+
 struct Parameters
 {
   std::string name, description;
@@ -90,6 +97,7 @@ struct Parameters
   RectumShape rectum;
   FloorShape pelvic_floor;
   std::vector<Support> supports;
+  std::map<std::string, CavityFilling> cavities; ///< organs that the case names; the others are closed
 
   Eigen::Vector3d urethra_far; ///< fixed distal end of the urethra
   double urethra_area = 0, urethra_radius = 0;

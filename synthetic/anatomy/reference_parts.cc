@@ -203,7 +203,10 @@ dataset::ReferenceModel make_reference(const Parameters &p)
     {
       shell.rims = loops;
       shell.fixed_nodes = joined(loops);
-      shell.has_cavity = true;
+      const auto filling = p.cavities.find(shell.name);
+      shell.has_cavity = filling == p.cavities.end() || !filling->second.is_open;
+      if (filling != p.cavities.end())
+        shell.cavity = filling->second.control;
       continue;
     }
     // The longer loop is the bony edge; the hiatus is free.

@@ -27,6 +27,7 @@ class TableReader
 public:
   TableReader(const toml::table &table, std::string path, std::string file);
 
+  bool has(const std::string &key) const { return table_->contains(key); }
   double number(const std::string &key, Range range);
   int integer(const std::string &key, int low, int high);
   std::string text(const std::string &key);

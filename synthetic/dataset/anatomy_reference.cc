@@ -1,5 +1,7 @@
 #include "synthetic/dataset/anatomy_groups.h"
 
+#include <algorithm>
+
 namespace pelvireg::dataset
 {
 namespace
@@ -38,6 +40,24 @@ std::map<std::string, YeohMaterial> read_materials(const GroupReader &reference)
   return materials;
 }
 
+const std::vector<std::string> cavity_modes = {"closed", "leak", "pressure"}; // in the order of CavityMode
+
+void write_cavity(GroupWriter group, const CavityControl &cavity)
+{
+  group.text("mode", cavity_modes.at(static_cast<std::size_t>(cavity.mode)));
+  group.number("leak_rate_mm3_per_MPa_and_increment", cavity.leak_rate);
+  group.number("pressure_MPa", cavity.pressure);
+}
+
+CavityControl read_cavity(const GroupReader &group)
+{
+  const auto mode = std::find(cavity_modes.begin(), cavity_modes.end(), group.text("mode"));
+  if (mode == cavity_modes.end())
+    group.refuse("mode", "is none of closed, leak, pressure");
+  return {static_cast<CavityMode>(mode - cavity_modes.begin()), group.number("leak_rate_mm3_per_MPa_and_increment"),
+          group.number("pressure_MPa")};
+}
+
 /// Loops of different length as one array and the start of each.
 void write_rims(GroupWriter &group, const std::vector<Integers> &rims)
 {
@@ -71,6 +91,7 @@ void write_shell(GroupWriter group, const ReferenceShell &shell)
 {
   group.text("material", shell.material);
   group.integer("has_cavity", shell.has_cavity);
+  write_cavity(group.group("cavity"), shell.cavity);
   group.array("midsurface", shell.midsurface);
   group.array("directors", shell.directors);
   group.array("thickness", shell.thickness);
@@ -86,6 +107,7 @@ ReferenceShell read_shell(const GroupReader &group, const std::string &name)
   shell.name = name;
   shell.material = group.text("material");
   shell.has_cavity = group.integer("has_cavity") != 0;
+  shell.cavity = read_cavity(group.group("cavity"));
   shell.midsurface = group.array<Points>("midsurface");
   const Eigen::Index n_nodes = shell.midsurface.rows();
   shell.directors = group.array<Points>("directors", n_nodes);

@@ -95,6 +95,8 @@ class GroupReader
 {
 public:
   GroupReader group(const std::string &name) const;
+  /// Whether an optional group or dataset is there.
+  bool has(const std::string &name) const;
 
   double number(const std::string &name) const;
   std::int32_t integer(const std::string &name) const;

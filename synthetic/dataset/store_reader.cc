@@ -49,6 +49,12 @@ GroupReader GroupReader::group(const std::string &name) const
   return {std::move(handle), file_, path_ + name + "/"};
 }
 
+bool GroupReader::has(const std::string &name) const
+{
+  const QuietErrors quiet;
+  return H5Lexists(handle_.id(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
 namespace
 {
 /// Reads a scalar attribute of exactly this type, or returns false.

@@ -2,6 +2,7 @@
 
 #include "synthetic/dataset/error.h"
 #include "synthetic/dataset/store.h"
+#include "synthetic/dataset/truth_balance.h"
 
 namespace pelvireg::dataset
 {
@@ -160,6 +161,8 @@ void require_one_layer_an_increment(const Truth &truth)
   for (const TruthSurface &surface : truth.surfaces)
     if (surface.displacements.size() != truth.increments.size())
       throw ComputationError("cannot store surface '" + surface.name + "': it has not one displacement an increment");
+  if (!truth.balances.empty() && truth.balances.size() != truth.increments.size())
+    throw ComputationError("cannot store the balances: there is neither none nor one an increment");
 }
 } // namespace
 
@@ -176,6 +179,10 @@ void save(const Truth &truth, const std::filesystem::path &file)
   write_surfaces(root.group("surfaces"), truth);
   write_trusses(root.group("trusses"), truth);
   write_increments(root.group("increments"), truth);
+  if (!truth.balances.empty())
+    write_balances(root.group("balance"), truth);
+  if (truth.discretisation_error)
+    write_discretisation_error(root.group("discretisation_error"), *truth.discretisation_error);
   writer.finish();
 }
 
@@ -193,6 +200,10 @@ Truth load_truth(const std::filesystem::path &file)
   truth.surfaces = read_surfaces(root.group("surfaces"), n_increments);
   truth.trusses = read_trusses(root.group("trusses"), n_increments);
   truth.increments = read_increments(root.group("increments"), n_increments, n_cavities);
+  if (root.has("balance"))
+    read_balances(root.group("balance"), n_increments, truth);
+  if (root.has("discretisation_error"))
+    truth.discretisation_error = read_discretisation_error(root.group("discretisation_error"), n_increments);
   return truth;
 }
 } // namespace pelvireg::dataset

@@ -1,14 +1,9 @@
 // The pelvireg program as a person or CI calls it: files, exit status, words.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "synthetic/dataset/truth.h"
+#include "tests/regression/program.h"
 
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <cmath>
 #include <map>
-#include <sstream>
-#include <sys/wait.h>
 
 namespace pelvireg
 {
@@ -18,61 +13,6 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string content_of(const fs::path &file)
-{
-  std::ostringstream out;
-  out << std::ifstream(file, std::ios::binary).rdbuf();
-  return out.str();
-}
-
-struct Outcome
-{
-  int status = -1;
-  std::string out, err;
-};
-
-class Program : public ::testing::Test
-{
-protected:
-  Program()
-  {
-    std::string name = (fs::temp_directory_path() / "pelvireg-test-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~Program() override { fs::remove_all(folder_); }
-
-  Outcome call(const std::string &arguments) const
-  {
-    const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
-    const std::string command = "cd '" + folder_.string() + "' && '" PELVIREG_PROGRAM "' " + arguments + " >'" +
-                                out.string() + "' 2>'" + err.string() + "' </dev/null";
-    const int status = std::system(command.c_str());
-    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(out), content_of(err)};
-    fs::remove(out);
-    fs::remove(err);
-    return outcome;
-  }
-
-  /// Exit status 2, one sentence on standard error that holds `part`, no file left.
-  void expect_refused(const std::string &arguments, const std::string &part) const
-  {
-    const Outcome outcome = call(arguments);
-    EXPECT_EQ(outcome.status, 2) << arguments;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(part)) << arguments;
-  }
-
-  std::vector<std::string> files() const
-  {
-    std::vector<std::string> names;
-    for (const auto &entry : fs::recursive_directory_iterator(folder_))
-      names.push_back(entry.path().lexically_relative(folder_).string());
-    return names;
-  }
-
-  fs::path folder_;
-};
-
 /// Content of every HDF5 and CSV file by name.
 std::map<std::string, std::string> results_in(const fs::path &folder)
 {
@@ -81,6 +21,24 @@ std::map<std::string, std::string> results_in(const fs::path &folder)
     if (entry.path().extension() == ".h5" || entry.path().extension() == ".csv")
       results[entry.path().filename().string()] = content_of(entry.path());
   return results;
+}
+
+/// What every increment of a truth must keep: energy within 1 % of the external work, forces, closed volumes.
+void expect_balanced(const dataset::Truth &truth)
+{
+  ASSERT_EQ(truth.balances.size(), truth.increments.size());
+  for (std::size_t i = 0; i < truth.increments.size(); ++i)
+  {
+    const dataset::BalanceRecord &balance = truth.balances[i];
+    EXPECT_GT(balance.external_work, 0) << "increment " << i + 1;
+    EXPECT_LE(std::abs(balance.energy_error_percent), 1) << "increment " << i + 1;
+    EXPECT_LE(balance.force_error, 1e-4 * balance.pressure_resultant.norm()) << "increment " << i + 1;
+    EXPECT_GT(balance.reactions.rowwise().norm().maxCoeff(), 0) << "increment " << i + 1;
+    const Eigen::VectorXd change =
+        truth.increments[i].cavity_volumes.cwiseQuotient(truth.cavity_rest_volumes).array() - 1;
+    EXPECT_LE(change.lpNorm<Eigen::Infinity>(), 1e-3) << "increment " << i + 1;
+    EXPECT_NEAR(balance.cavity_work.lpNorm<Eigen::Infinity>(), 0, 1e-6 * balance.external_work);
+  }
 }
 
 /// A line of the case file, what is wrong instead of it, and a word that the sentence must hold.
@@ -120,11 +78,29 @@ TEST_F(Program, GivesTheSameBytesForOneAndTwoThreadsAndSkipsWhatIsDone)
     EXPECT_EQ(results_one.at(name), results_two.at(name)) << name; // not EXPECT_THAT: bytes would be printed
   }
 
+  expect_balanced(dataset::load_truth(folder_ / "one" / "truth.h5"));
+
   const Outcome again = call("run quick --out one --jobs 2");
   EXPECT_EQ(again.status, 0);
   for (const char *stage : {"anatomy", "reference", "observe", "register full", "evaluate", "report"})
     EXPECT_THAT(again.out, HasSubstr(std::string(stage) + ": up to date"));
   EXPECT_EQ(results_in(folder_ / "one"), results_one);
+}
+
+TEST_F(Program, StudiesTheMeshOfACaseAndGivesItsErrorBar)
+{
+  ASSERT_EQ(call("anatomy quick --out good").status, 0);
+  const std::string quick = content_of(folder_ / "good" / "case.toml");
+  std::ofstream(folder_ / "small.toml") << replaced(
+      replaced(quick, "\ntarget_displacement = 3.6", "\ntarget_displacement = 0.1"), "\nn_increments = 8",
+      "\nn_increments = 1");
+  const Outcome outcome = call("mesh-study small.toml --ratio 1.25 --out study");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("observed order"));
+  const std::string study = content_of(folder_ / "study" / "mesh_study.json");
+  for (const char *word : {"case_sha256", "solver_sha256", "\"mean_mm\"", "max_by_organ_mm"})
+    EXPECT_THAT(study, HasSubstr(word));
+  expect_refused("mesh-study small.toml --ratio 1", "more than 1");
 }
 
 TEST_F(Program, RefusesABadCaseWithOneSentenceAndLeavesNothing)
@@ -223,8 +199,8 @@ TEST_F(Program, TakesTheMotionThatAnotherProgramGaveItsDeckAsTruth)
 
 TEST_F(Program, HasHelpWithExamplesForEveryCommand)
 {
-  for (const char *command :
-       {"", "run", "anatomy", "reference", "observe", "register", "evaluate", "report", "export", "import"})
+  for (const char *command : {"", "run", "anatomy", "reference", "observe", "register", "evaluate", "report", "export",
+                              "import", "mesh-study", "cavity-study"})
   {
     const Outcome outcome = call(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;

@@ -20,6 +20,7 @@ struct Invocation
 void add_case_commands(CLI::App &program, Invocation &invocation);  ///< cases, anatomy
 void add_stage_commands(CLI::App &program, Invocation &invocation); ///< reference, observe, register, evaluate, report
 void add_run_command(CLI::App &program, Invocation &invocation);    ///< run
+void add_study_commands(CLI::App &program, Invocation &invocation); ///< mesh-study, cavity-study
 void add_export_command(CLI::App &program, Invocation &invocation); ///< export
 void add_import_command(CLI::App &program, Invocation &invocation); ///< import
 

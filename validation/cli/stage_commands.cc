@@ -18,6 +18,7 @@ struct Arguments
   std::vector<std::string> conditions = runner::condition_names();
   SampleSettings settings;
   int jobs = 1;
+  std::string log_file; ///< of the reference
 };
 
 using Work = std::function<void(ResultDirectory &, const Arguments &)>;
@@ -69,11 +70,13 @@ void print_error_table(const ResultDirectory &directory)
 void add_stage_commands(CLI::App &program, Invocation &invocation)
 {
   const auto reference = std::make_shared<Arguments>();
-  CLI::App *command =
-      add_command(program, invocation, reference, "reference", "Move the pelvis with the reference solver: truth.h5",
-                  [](ResultDirectory &directory, const Arguments &given) { make_truth(directory, given.jobs); });
+  CLI::App *command = add_command(
+      program, invocation, reference, "reference", "Move the pelvis with the reference solver: truth.h5",
+      [](ResultDirectory &directory, const Arguments &given) { make_truth(directory, given.jobs, given.log_file); });
   add_jobs_option(*command, reference->jobs);
-  command->footer("Example:\n  pelvireg reference out/t005 --jobs 2");
+  command->add_option("--log", reference->log_file, "Write a line for every step and Newton iteration to this file");
+  command->footer("Examples:\n  pelvireg reference out/t005 --jobs 2\n"
+                  "  pelvireg reference out/t005 --log reference.log");
 
   command = add_command(program, invocation, std::make_shared<Arguments>(), "observe",
                         "Outlines in the image plane and validation slices: observations.h5",

@@ -3,14 +3,19 @@
 #include "reference_fe/reference.h"
 #include "synthetic/anatomy/case.h"
 #include "synthetic/dataset/atomic_file.h"
+#include "synthetic/dataset/error.h"
 #include "synthetic/observation/observe.h"
 #include "validation/cli/sha256.h"
+#include "validation/cli/studies.h"
 #include "validation/runner/error_table.h"
 #include "validation/runner/result_files.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <optional>
+#include <sstream>
 
 namespace pelvireg::cli
 {
@@ -92,18 +97,36 @@ void make_anatomy(ResultDirectory &directory, const std::string &case_name, cons
                  }});
 }
 
-void make_truth(ResultDirectory &directory, int jobs)
+void make_truth(ResultDirectory &directory, int jobs, const std::string &log_file)
 {
+  // An anatomy without its case file is not one that a mesh study can know.
+  std::optional<dataset::DiscretisationError> error_bar;
+  if (directory.has("case.toml"))
+  {
+    std::ostringstream text;
+    text << std::ifstream(directory.path() / "case.toml", std::ios::binary).rdbuf();
+    error_bar = known_discretisation_error(text.str(), "case.toml");
+  }
   directory.run({.name = "reference",
                  .code = {"reference_fe", "synthetic/dataset"},
-                 .options = "",
+                 .options = error_bar ? "mesh study " + error_bar->revision + " " + error_bar->case_sha256 : "",
                  .inputs = {"anatomy.h5"},
                  .outputs = {"truth.h5"},
                  .work = [&](Progress &progress) -> Notes
                  {
                    const dataset::Anatomy anatomy = dataset::load_anatomy(directory.path() / "anatomy.h5");
-                   save(reference_fe::solve_reference(anatomy, {.n_threads = jobs, .progress = progress.callback()}),
-                        directory.path() / "truth.h5");
+                   reference_fe::ReferenceOptions options{.n_threads = jobs, .progress = progress.callback()};
+                   std::ofstream log;
+                   if (!log_file.empty())
+                   {
+                     log.open(log_file);
+                     if (!log)
+                       throw InputError(fmt::format("The log '{}' cannot be written; give another name.", log_file));
+                     options.log = [&log](const std::string &line) { log << line << std::endl; };
+                   }
+                   dataset::Truth truth = reference_fe::solve_reference(anatomy, options);
+                   truth.discretisation_error = error_bar;
+                   save(truth, directory.path() / "truth.h5");
                    return {};
                  }});
 }

@@ -4,6 +4,7 @@
 #include "validation/report/figures.h"
 #include "validation/report/html.h"
 #include "validation/report/report_text.h"
+#include "validation/report/truth_text.h"
 #include "validation/runner/aggregate.h"
 #include "validation/runner/claims.h"
 #include "validation/runner/result_files.h"
@@ -188,6 +189,7 @@ std::string report_html(const ReportInputs &inputs)
           plane_overlay_figure(inputs);
   html += "<h2>Pictures</h2>\n" + pictures_html(inputs.pictures);
   html += "<h2>What moved</h2>\n" + motion_html(evaluation);
+  html += "<h2>How exact the truth is</h2>\n" + truth_quality_html(inputs.truth);
   html += "<h2>What the registration says of itself</h2>\n" + quality_html(evaluation, inputs.timings);
   html += definitions_html(evaluation) + limits_html();
   html += "<h2>Provenance</h2>\n" + provenance_html(inputs.provenance);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 namespace pelvireg::test
 {
 namespace
@@ -74,6 +76,34 @@ TEST(CaseFile, RefusesAWrongType)
   expect_complaint(altered("n_increments = 8", "n_increments = 1.5"), {"load.n_increments", "1.5", "integer"});
   expect_complaint(altered("far_point = [0.0, 5.0, -6.0]", "far_point = [0.0, 5.0]"),
                    {"urethra.far_point", "3 numbers", "array of 2"});
+}
+
+TEST(CaseFile, ReadsWhatHoldsTheFluidsInTheUnitsOfTheCaseFile)
+{
+  const std::string text = altered("[plane]", "[cavity.bladder]\nmode = \"leak\"\nrate = 50.0\n[cavity.vagina]\n"
+                                              "mode = \"pressure\"\npressure = 1.5\n[cavity.rectum]\n"
+                                              "mode = \"open\"\n[plane]");
+  const dataset::Anatomy anatomy = anatomy::build_anatomy(text, "altered");
+  std::map<std::string, dataset::ReferenceShell> shells;
+  for (const dataset::ReferenceShell &shell : anatomy.reference.shells)
+    shells[shell.name] = shell;
+  EXPECT_EQ(shells.at("bladder").cavity.mode, dataset::CavityMode::leak);
+  EXPECT_DOUBLE_EQ(shells.at("bladder").cavity.leak_rate, 5e4); // mm^3 per MPa
+  EXPECT_EQ(shells.at("vagina").cavity.mode, dataset::CavityMode::pressure);
+  EXPECT_DOUBLE_EQ(shells.at("vagina").cavity.pressure, 1.5e-3); // MPa
+  EXPECT_TRUE(shells.at("bladder").has_cavity && shells.at("vagina").has_cavity);
+  EXPECT_FALSE(shells.at("rectum").has_cavity);
+}
+
+TEST(CaseFile, RefusesAFluidThatIsHeldByNothingItKnows)
+{
+  const auto with = [](const std::string &table) { return altered("[plane]", table + "\n[plane]"); };
+  expect_complaint(with("[cavity.bladder]\nmode = \"leaky\""),
+                   {"cavity.bladder.mode", "leaky", "closed, leak, pressure"});
+  expect_complaint(with("[cavity.bladder]\nmode = \"leak\""), {"cavity.bladder.rate", "missing"});
+  expect_complaint(with("[cavity.bladder]\nmode = \"leak\"\nrate = -1.0"), {"cavity.bladder.rate", "-1"});
+  expect_complaint(with("[cavity.vagina]\nmode = \"closed\"\nrate = 1.0"), {"cavity.vagina.rate", "not a known key"});
+  expect_complaint(with("[cavity.uterus]\nmode = \"closed\""), {"cavity.uterus", "bladder, vagina and rectum"});
 }
 
 TEST(CaseFile, RefusesAWallThatFolds)

@@ -1,4 +1,5 @@
 // What is loaded is what was saved, to the last bit; what is saved twice is one file.
+#include "synthetic/dataset/error.h"
 #include "tests/unit/dataset/samples.h"
 
 #include <gtest/gtest.h>
@@ -64,6 +65,8 @@ TEST(AnatomyFile, ComesBackExactly)
   EXPECT_EQ(shell.cells, saved.reference.shells[0].cells);
   EXPECT_EQ(shell.rims.at(1), saved.reference.shells[0].rims[1]);
   EXPECT_TRUE(shell.has_cavity);
+  EXPECT_EQ(shell.cavity.mode, CavityMode::leak);
+  EXPECT_EQ(shell.cavity.leak_rate, saved.reference.shells[0].cavity.leak_rate);
   EXPECT_EQ(loaded.reference.solids.at(0).cells, saved.reference.solids[0].cells);
   EXPECT_EQ(loaded.reference.materials.at("wall").kappa, 1.0 / 3);
   EXPECT_EQ(loaded.reference.trusses.at(1).part_b, "uterus");
@@ -88,6 +91,39 @@ TEST(TruthFile, ComesBackExactly)
   EXPECT_EQ(loaded.cavity_names, saved.cavity_names);
   EXPECT_EQ(loaded.increments.at(1).cavity_pressures, saved.increments[1].cavity_pressures);
   EXPECT_EQ(loaded.increments.at(0).residual, saved.increments[0].residual);
+  EXPECT_EQ(loaded.supports, saved.supports);
+  EXPECT_EQ(loaded.energy_parts, saved.energy_parts);
+  EXPECT_EQ(loaded.balances.at(1).strain_energy, saved.balances[1].strain_energy);
+  EXPECT_EQ(loaded.balances.at(1).reactions, saved.balances[1].reactions);
+  EXPECT_EQ(loaded.balances.at(0).energy_error_percent, saved.balances[0].energy_error_percent);
+  ASSERT_TRUE(loaded.discretisation_error);
+  EXPECT_EQ(loaded.discretisation_error->max_by_organ, saved.discretisation_error->max_by_organ);
+  EXPECT_EQ(loaded.discretisation_error->n_cells, saved.discretisation_error->n_cells);
+}
+
+TEST(TruthFile, MayLackTheBalancesWhichAreThenNoneAndNotZero)
+{
+  const ScratchFolder folder;
+  Truth imported = sample_truth();
+  imported.balances.clear();
+  imported.energy_parts.clear();
+  imported.supports.clear();
+  imported.discretisation_error.reset();
+  save(imported, folder / "truth.h5");
+  EXPECT_TRUE(load_truth(folder / "truth.h5").balances.empty());
+  EXPECT_FALSE(load_truth(folder / "truth.h5").discretisation_error);
+  expect_fixed_point(imported, load_truth);
+}
+
+TEST(TruthFile, RefusesABalanceWithoutOneValueAPartOrOneRecordAnIncrement)
+{
+  const ScratchFolder folder;
+  Truth truth = sample_truth();
+  truth.balances[1].strain_energy.conservativeResize(1);
+  EXPECT_THROW(save(truth, folder / "truth.h5"), ComputationError);
+  truth = sample_truth();
+  truth.balances.pop_back();
+  EXPECT_THROW(save(truth, folder / "truth.h5"), ComputationError);
 }
 
 TEST(ObservationsFile, ComesBackExactlyWithOrgansThatThePlaneMisses)

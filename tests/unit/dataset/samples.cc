@@ -89,6 +89,7 @@ Anatomy sample_anatomy()
   shell.fixed_nodes = integers_from({4});
   shell.rims = {integers_from({0, 1, 2, 3}), integers_from({8, 9})};
   shell.has_cavity = true;
+  shell.cavity = {CavityMode::leak, 1e6 / 3, 0.002};
   ReferenceSolid solid;
   solid.name = "uterus";
   solid.material = "wall";
@@ -121,6 +122,28 @@ Truth sample_truth()
   for (int i = 1; i <= 2; ++i)
     truth.increments.push_back({1e-3 * i, 0.5 * i, 1e-7 / i, 0.3 * i, 4 + i, i - 1, 0.01 * i,
                                 Eigen::Vector3d(1e5, 2e4, 7 + i), Eigen::Vector3d(0.1, 0.2, 0.3 * i)});
+  truth.energy_parts = {"bladder", "bars cardinal_left"};
+  truth.supports = {"nodes of bladder", "bars cardinal_left", "bars urethra"};
+  for (int i = 1; i <= 2; ++i)
+    truth.balances.push_back({3.1 * i, 0.01 / i, Eigen::Vector2d(2.5 * i, 0.1), 0.2 * i, 0.03 * i,
+                              Eigen::Vector3d(0.7 * i, -0.1, 0), 0.4 / i, points_from(3, 11 * i),
+                              Eigen::Vector3d(1, -2, 0.3 * i), 1e-7 * i});
+  truth.discretisation_error = DiscretisationError{.cell_sizes = {9.3, 6.6, 4.67},
+                                                   .n_cells = integers_from({500, 1000, 2000}),
+                                                   .observed_order = 1.0 / 0.7,
+                                                   .used_order = 1.5,
+                                                   .safety_factor = 1.25,
+                                                   .mean = Eigen::Vector2d(0.01, 0.02),
+                                                   .max = Eigen::Vector2d(0.1, 0.2),
+                                                   .max_near_bars = Eigen::Vector2d(0.3, 0.4),
+                                                   .mean_by_organ = Points4::Constant(2, 4, 0.01),
+                                                   .max_by_organ = Points4::Constant(2, 4, 1.0 / 3),
+                                                   .bar_distance = 5,
+                                                   .share_near_bars = 0.2,
+                                                   .case_sha256 = "abc",
+                                                   .solver_sha256 = "def",
+                                                   .revision = "123",
+                                                   .same_solver = true};
   return truth;
 }
 

@@ -93,6 +93,25 @@ TEST(Cavity, TangentIsTheDerivativeOfTheResidualAndSymmetric)
   }
 }
 
+TEST(Cavity, LeakingOrHeldAtAPressureHasAnExactTangentToo)
+{
+  const dataset::ReferenceShell cube = cube_shell(1, same, radial, 0.2);
+  const int n = n_unknowns(cube);
+  Cavity term("cube", faces_of(cube, -1), n - 1);
+  Eigen::VectorXd solution = 0.1 * scattered(n, 3);
+  term.leak(7e5);
+  term.begin_step(0.25);
+  for (const double pressure : {-2e-6, 4e-6, 3e-5}) // under suction, where the outflow sets in, beyond
+  {
+    solution[n - 1] = pressure;
+    for (const int item : {0, 1})
+      EXPECT_LT(tangent_error(term, item, solution, 1e-7), 1e-6) << "pressure " << pressure << ", item " << item;
+  }
+  term.prescribe_pressure(0.3);
+  for (const int item : {0, 1})
+    EXPECT_LT(tangent_error(term, item, solution, 1e-5), 1e-8) << "item " << item;
+}
+
 TEST(Cavity, ACubeWithACapHasItsExactVolumeWhereverItLies)
 {
   for (const bool open : {false, true})

@@ -62,6 +62,30 @@ TEST(Report, EscapesHostileNames)
   EXPECT_NE(html.find("&lt;script&gt;alert(1)"), std::string::npos);
 }
 
+TEST(Report, SaysWhatTheTruthDoesNotKnowOfItself)
+{
+  const std::string html = Case().html();
+  for (const std::string word : {"error of the truth's mesh is not known", "does not say whether its energies"})
+    EXPECT_NE(html.find(word), std::string::npos) << word;
+}
+
+TEST(Report, ShowsTheTruthsErrorBarAndItsWorstBalance)
+{
+  Case known;
+  const auto n = static_cast<Eigen::Index>(known.truth.increments.size());
+  known.truth.balances.resize(known.truth.increments.size());
+  known.truth.balances.front().energy_error_percent = -0.73;
+  dataset::DiscretisationError error;
+  error.n_cells = Eigen::Vector3i(451, 928, 1802);
+  error.mean = error.max = error.max_near_bars = Eigen::VectorXd::Constant(n, 0.0412);
+  error.mean_by_organ = error.max_by_organ = dataset::Points4::Constant(n, 4, 0.0573);
+  error.revision = "abcdef";
+  known.truth.discretisation_error = error;
+  const std::string html = known.html();
+  for (const std::string word : {"451, 928 and 1802", "0.057", "mean at most 0.041", "0.73 %", "(abcdef)"})
+    EXPECT_NE(html.find(word), std::string::npos) << word;
+}
+
 TEST(Report, IsTheSameOnEveryRun)
 {
   EXPECT_EQ(Case().html(), Case().html());

@@ -83,6 +83,82 @@ TEST(InflatedSphere, APrescribedVolumePassesTheLargestPressureOfANeoHookeanWall)
   EXPECT_LT(pressure[6], pressure[5]);
 }
 
+/// Volume of the ball's fluid (mm^3) after it leaked from a stretch of 1.2 over one unit of the load parameter, by the
+/// closed form's pressure and backward Euler: each volume is the root of V = V0 - rate r(p(V)) dt.
+double leaked_volume(double volume, double rest_volume, double rate, int n_steps, const YeohCoefficients &c)
+{
+  const auto outflow = [&](double v)
+  { return rate * (sphere_pressure(std::cbrt(v / rest_volume), inner, outer, c, Sphere::kappa(c)) - 5e-6); };
+  for (int step = 0; step < n_steps; ++step)
+  {
+    double low = 1.02 * rest_volume, high = volume;
+    for (int halving = 0; halving < 60; ++halving)
+    {
+      const double middle = (low + high) / 2;
+      (middle > volume - outflow(middle) / n_steps ? high : low) = middle;
+    }
+    volume = high;
+  }
+  return volume;
+}
+
+TEST(LeakingSphere, LosesTheVolumeThatTheClosedFormsPressureDrivesOutInEveryStep)
+{
+  const YeohCoefficients neo_hookean{0.1, 0};
+  FilledSphere ball(neo_hookean);
+  inflate(ball, neo_hookean, {1.1, 1.2});
+  const double start = ball.fluid->held_volume(), rate = 4e6; // a tenth of the volume flows out
+  ball.fluid->leak(rate);
+  const int n_steps = 4;
+  for (int step = 1; step <= n_steps; ++step)
+  {
+    ball.fluid->begin_step(static_cast<double>(step) / n_steps);
+    const NewtonResult result = ball.solve();
+    ball.fluid->accept_step(ball.solution);
+    EXPECT_LE(result.iterations.size(), 6u);
+    EXPECT_NEAR(ball.fluid->volume(ball.solution) / ball.fluid->held_volume(), 1, 1e-11);
+  }
+  const double expected = leaked_volume(start, ball.fluid->rest_volume(), rate, n_steps, neo_hookean);
+  const double flowed = start - ball.fluid->held_volume(),
+               in_the_limit = start - leaked_volume(start, ball.fluid->rest_volume(), rate, 1000, neo_hookean);
+  std::cout << fmt::format("leaked {:.1f} mm^3 of {:.1f}, closed form in four steps {:.1f}, in a thousand {:.1f}\n",
+                           flowed, start, start - expected, in_the_limit);
+  EXPECT_GT(flowed, 0.02 * start);
+  EXPECT_NEAR(flowed / (start - expected), 1, 1e-3);
+  EXPECT_NEAR(flowed / in_the_limit, 1, 0.02); // first order in the step
+}
+
+TEST(LeakingSphere, TakesNothingInWhenItsFluidIsUnderSuction)
+{
+  FilledSphere ball({0.1, 0});
+  ball.fluid->hold_volume(0.97 * ball.fluid->rest_volume());
+  ball.solve();
+  ASSERT_LT(ball.solution[ball.pressure], 0);
+  ball.fluid->leak(1e7);
+  ball.fluid->begin_step(1);
+  ball.solve();
+  ball.fluid->accept_step(ball.solution);
+  EXPECT_NEAR(ball.fluid->volume(ball.solution) / ball.fluid->rest_volume(), 0.97, 1e-11);
+}
+
+TEST(PressedSphere, TakesTheVolumeOfTheClosedFormAtAPrescribedPressure)
+{
+  const YeohCoefficients yeoh{0.1, 0.05};
+  FilledSphere ball(yeoh);
+  const double stretch = 1.1, pressure = sphere_pressure(stretch, inner, outer, yeoh, Sphere::kappa(yeoh));
+  ball.fluid->prescribe_pressure(pressure);
+  for (const double t : {0.25, 0.5, 0.75, 1.})
+  {
+    ball.fluid->begin_step(t);
+    ball.solve();
+    ball.fluid->accept_step(ball.solution);
+    EXPECT_NEAR(ball.solution[ball.pressure] / (t * pressure), 1, 1e-9);
+  }
+  const double reached = std::cbrt(ball.fluid->volume(ball.solution) / ball.fluid->rest_volume());
+  std::cout << fmt::format("stretch {:.5f} at {:.6f} MPa, closed form {}\n", reached, pressure, stretch);
+  EXPECT_NEAR((reached - 1) / (stretch - 1), 1, 2e-3);
+}
+
 /// How far the nodes of a filled sphere move under 5 kPa from outside, mm, where none should.
 double motion_under_pressure(int n)
 {

@@ -1,0 +1,49 @@
+// Newton's method on the whole pelvis: shells, solid, bars, fluids, tie, contact and the load factor in one system.
+#include "reference_fe/load_stepper.h"
+#include "synthetic/anatomy/case.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+namespace pelvireg::reference_fe
+{
+namespace
+{
+TEST(PelvisNewton, ConvergesQuadraticallyAndSaysSoLineByLine)
+{
+  const dataset::Anatomy anatomy = anatomy::build_anatomy(anatomy::case_text("quick"), "quick");
+  PelvisModel model = build_pelvis_model(anatomy, 1);
+  LoadStepper stepper(model, {});
+  stepper.start(anatomy.reference.target_displacement);
+
+  // From there half as much pressure again at once, every term with its exact tangent.
+  Eigen::VectorXd x = stepper.solution();
+  model.path->release();
+  model.probe->prescribe_pressure(1.5 * x[model.pressure_unknown]);
+  for (const std::shared_ptr<ShellTerm> &shell : model.shells)
+    shell->use_mixed_integration_points(false);
+  std::vector<std::string> log;
+  const NewtonResult result = solve_newton(
+      model.system, x, {.residual_tolerance = 1e-9, .log = [&](const std::string &line) { log.push_back(line); }});
+  ASSERT_TRUE(result.converged()) << result.message;
+  ASSERT_EQ(log.size(), result.iterations.size());
+  std::vector<double> residuals;
+  for (std::size_t i = 0; i < log.size(); ++i)
+  {
+    std::cout << log[i] << "\n";
+    EXPECT_NE(log[i].find("residual"), std::string::npos);
+    residuals.push_back(result.iterations[i].residual);
+  }
+  residuals.push_back(result.residual);
+  while (residuals.size() > 3 && residuals.back() < 1e-10) // round-off
+    residuals.pop_back();
+  ASSERT_GE(residuals.size(), 4u);
+  const std::size_t k = residuals.size() - 1;
+  const double order = std::log(residuals[k] / residuals[k - 1]) / std::log(residuals[k - 1] / residuals[k - 2]);
+  std::cout << "order " << order << ", last residual " << residuals[k] << " N\n";
+  EXPECT_GT(order, 1.8);
+}
+} // namespace
+} // namespace pelvireg::reference_fe
