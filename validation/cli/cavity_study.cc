@@ -1,11 +1,13 @@
 #include "synthetic/anatomy/case.h"
+#include "synthetic/dataset/error.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/studies.h"
 #include "validation/cli/study_field.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace pelvireg::cli
 {
@@ -15,7 +17,9 @@ using dataset::organ_names;
 
 const std::vector<std::string> hollow_organs = {"bladder", "vagina", "rectum"};
 
-dataset::Truth solve_with(const StudySettings &settings, const std::string &name, const std::string &cavity)
+/// None when the reference does not reach the end: a wall without fluid may have no way there. The reason is printed.
+std::optional<dataset::Truth> solve_with(const StudySettings &settings, const std::string &name,
+                                         const std::string &cavity)
 {
   const std::string label = case_label(settings.case_name);
   std::string text = anatomy::case_text(settings.case_name);
@@ -24,7 +28,15 @@ dataset::Truth solve_with(const StudySettings &settings, const std::string &name
   fmt::print("cavities {}\n", name);
   ResultDirectory directory(settings.folder / name, settings.command_line, ResultDirectory::Missing::create);
   make_anatomy(directory, label, text);
-  make_truth(directory, settings.jobs);
+  try
+  {
+    make_truth(directory, settings.jobs);
+  }
+  catch (const ComputationError &error)
+  {
+    fmt::print("cavities {}: {}\n", name, error.what());
+    return {};
+  }
   return dataset::load_truth(directory.path() / "truth.h5");
 }
 
@@ -52,27 +64,29 @@ void print_volumes(const std::string &name, const dataset::Truth &truth)
 
 void run_cavity_study(const StudySettings &settings, double leak_rate)
 {
-  const std::vector<std::string> names = {"closed", "leaking", "open"};
-  const std::vector<dataset::Truth> truths = {
-      solve_with(settings, "closed", "{mode = 'closed'}"),
-      solve_with(settings, "leaking", fmt::format("{{mode = 'leak', rate = {:.6f}}}", leak_rate)),
-      solve_with(settings, "open", "{mode = 'open'}")};
-  const StudyPoints points = study_points({truths[0]}, 0);
-  std::vector<StudyField> fields;
-  for (const dataset::Truth &truth : truths)
-    fields.emplace_back(truth, points);
+  const std::optional<dataset::Truth> closed = solve_with(settings, "closed", "{mode = 'closed'}");
+  if (!closed)
+    throw ComputationError("the case does not converge with closed cavities, so there is nothing to compare with");
+  const std::vector<std::pair<std::string, std::optional<dataset::Truth>>> others = {
+      {"leaking", solve_with(settings, "leaking", fmt::format("{{mode = 'leak', rate = {:.6f}}}", leak_rate))},
+      {"open", solve_with(settings, "open", "{mode = 'open'}")}};
+  const StudyPoints points = study_points({*closed}, 0);
+  const StudyField field(*closed, points);
 
-  fmt::print("\nat the last increment, which every one reaches with the same mean vaginal displacement\n");
-  for (std::size_t i = 0; i < names.size(); ++i)
-    print_volumes(names[i], truths[i]);
+  fmt::print("\nat the last increment, which all reach with the same mean vaginal displacement\n");
+  print_volumes("closed", *closed);
+  for (const auto &[name, truth] : others)
+    if (truth)
+      print_volumes(name, *truth);
   fmt::print("\ndisplacement against closed cavities, mean / largest over the outer surface, mm\n{:<10}", "");
   for (const std::string &organ : organ_names)
     fmt::print("{:>18}", organ);
-  for (std::size_t i = 1; i < names.size(); ++i)
+  for (const auto &[name, truth] : others)
   {
-    fmt::print("\n{:<10}", names[i]);
+    fmt::print("\n{:<10}", name);
     for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
-      fmt::print("{:>18}", difference(fields[i], fields[0], organ, truths[0].increments.size() - 1));
+      fmt::print("{:>18}", truth ? difference(StudyField(*truth, points), field, organ, closed->increments.size() - 1)
+                                 : "not reached");
   }
   fmt::print("\n");
 }

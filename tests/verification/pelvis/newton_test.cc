@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <iostream>
 
 namespace pelvireg::reference_fe
@@ -37,13 +36,14 @@ TEST(PelvisNewton, ConvergesQuadraticallyAndSaysSoLineByLine)
     residuals.push_back(result.iterations[i].residual);
   }
   residuals.push_back(result.residual);
-  while (residuals.size() > 3 && residuals.back() < 1e-10) // round-off
-    residuals.pop_back();
-  ASSERT_GE(residuals.size(), 4u);
-  const std::size_t k = residuals.size() - 1;
-  const double order = std::log(residuals[k] / residuals[k - 1]) / std::log(residuals[k - 1] / residuals[k - 2]);
-  std::cout << "order " << order << ", last residual " << residuals[k] << " N\n";
-  EXPECT_GT(order, 1.8);
+  // The last iteration that began well above round-off squares the residual (in N), or does better: an inexact tangent
+  // only takes a share off it.
+  std::size_t k = residuals.size() - 1;
+  while (k > 1 && residuals[k - 1] < 1e-5)
+    --k;
+  std::cout << "from " << residuals[k - 1] << " to " << residuals[k] << " N\n";
+  EXPECT_LT(residuals[k - 1], 0.1);
+  EXPECT_LT(residuals[k], residuals[k - 1] * residuals[k - 1]);
 }
 } // namespace
 } // namespace pelvireg::reference_fe
