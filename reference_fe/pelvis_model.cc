@@ -132,6 +132,7 @@ void add_elements(const ReferenceModel &reference, const Parts &parts, PelvisMod
       bar.nodes.push_back(parts.node(truss.part_b, truss.node_b));
     bar.area = truss.area;
     bar.material = reference.materials.at(truss.material);
+    bar.tension_only = truss.tension_only;
     model.bars.push_back(bar);
   }
   model.system.add_term(std::make_shared<Trusses>(model.bars));

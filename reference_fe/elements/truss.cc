@@ -1,5 +1,6 @@
 #include "reference_fe/elements/truss.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pelvireg::reference_fe
@@ -25,7 +26,8 @@ struct StretchedBar
     const Eigen::Vector3d span = end - bar.nodes[0].position(solution);
     length = span.norm();
     axis = span / length;
-    response = uniaxial_response(bar.material, length / rest_length);
+    const auto law = bar.tension_only ? tension_only_response : uniaxial_response;
+    response = law(bar.material, length / rest_length);
   }
 };
 } // namespace
@@ -36,6 +38,17 @@ UniaxialResponse uniaxial_response(const dataset::YeohMaterial &m, double lambda
   const double w1 = m.c10 + 2 * m.c20 * e + 3 * m.c30 * e * e, w2 = 2 * m.c20 + 6 * m.c30 * e;
   const double d1 = 2 * (lambda - 1 / (lambda * lambda)), d2 = 2 + 4 / (lambda * lambda * lambda);
   return {m.c10 * e + m.c20 * e * e + m.c30 * e * e * e, w1 * d1, w1 * d2 + w2 * d1 * d1};
+}
+
+UniaxialResponse tension_only_response(const dataset::YeohMaterial &m, double lambda)
+{
+  const double strain = lambda - 1, t = std::clamp(strain / tension_only_width, 0., 1.);
+  const double slope = t * t * (3 - 2 * t), curvature = 6 * t * (1 - t) / tension_only_width;
+  const double taut = tension_only_width * t * t * t * (1 - t / 2) + std::max(strain - tension_only_width, 0.);
+  const UniaxialResponse response = uniaxial_response(m, 1 + taut);
+  const double remainder = tension_only_remainder * 6 * m.c10;
+  return {response.energy + remainder / 2 * strain * strain, response.stress * slope + remainder * strain,
+          response.modulus * slope * slope + response.stress * curvature + remainder};
 }
 
 double bar_energy(const Bar &bar, const Eigen::VectorXd &solution)

@@ -18,6 +18,7 @@ struct Bar
   Eigen::Vector3d fixed_end = Eigen::Vector3d::Zero(); ///< mm; used when there is one node
   double area = 0;                                     ///< rest section, mm^2
   dataset::YeohMaterial material;                      ///< kappa is not used: the bar keeps its volume
+  bool tension_only = false;                           ///< slack in compression: see tension_only_response()
 };
 
 /// Uniaxial response of a bar at stretch lambda: energy per volume and its first two derivatives, MPa.
@@ -30,6 +31,15 @@ struct UniaxialResponse
 /// 3)^(i-1), initial modulus 6 C10. The same law in compression, as Abaqus' T3D2: fasciae and the urethra are pressed
 /// as well as pulled, and an organ that rests on slack bars alone would be a mechanism.
 UniaxialResponse uniaxial_response(const dataset::YeohMaterial &material, double lambda);
+
+/// The same bar as a cord: it carries what its law gives at the stretch 1 + phi(lambda - 1), with phi = 0 in
+/// compression and phi(e) = e - tension_only_width / 2 from e = tension_only_width on, twice continuously
+/// differentiable between, so that Newton's method converges across slackening. A linear stiffness of
+/// tension_only_remainder of the initial modulus stays everywhere: what hangs on slack cords alone is soft but no
+/// mechanism. Energy convex where the law's is; no stress at rest.
+UniaxialResponse tension_only_response(const dataset::YeohMaterial &material, double lambda);
+inline constexpr double tension_only_width = 0.01;
+inline constexpr double tension_only_remainder = 1e-3;
 
 double bar_energy(const Bar &bar, const Eigen::VectorXd &solution); ///< N mm
 /// Force of the bar on its first node, N: towards the other end where the bar is stretched. The other end gets its

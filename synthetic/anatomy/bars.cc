@@ -85,6 +85,7 @@ void add_support(const Parameters &p, const Support &support, bool left, const R
       bar.fixed_point += (i % 2 == 0 ? brace : -brace);
     bar.area = patches.area / support.n_bars;
     bar.material = support.material;
+    bar.tension_only = support.tension_only;
     bars.push_back(bar);
   }
 }

@@ -137,6 +137,7 @@ Support read_support(TableReader table, const Parameters &parameters)
   support.area_left = table.number("area_left", positive);
   support.area_right = table.number("area_right", positive);
   support.n_bars = table.integer("n_bars", 8, 500);
+  support.tension_only = table.flag("tension_only", false);
   support.band_cells = table.integers("band_cells", 1, 50, 3);
   const auto refuse_unless =
       [&](const std::string &key, const std::string &value, const std::vector<std::string> &allowed)

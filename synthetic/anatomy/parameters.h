@@ -63,6 +63,7 @@ struct Support
   Eigen::Vector3d organ_point, organ_span, far_point, far_span; ///< left side; the right one is mirrored in x
   double area_left = 0, area_right = 0;                         ///< mm^2, total section a side
   int n_bars = 8;
+  bool tension_only = false;   ///< the bars slacken in compression; the band never does
   std::vector<int> band_cells; ///< along, across, through the thickness
 };
 

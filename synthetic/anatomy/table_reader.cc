@@ -92,6 +92,17 @@ std::string TableReader::text(const std::string &key)
   return *value.value<std::string>();
 }
 
+bool TableReader::flag(const std::string &key, bool otherwise)
+{
+  known_.insert(key);
+  if (!table_->contains(key))
+    return otherwise;
+  const toml::node &value = node(key);
+  if (!value.is_boolean())
+    fail(key, fmt::format("is {}, but true or false is needed; write one without quotes.", type_name(value)));
+  return *value.value<bool>();
+}
+
 std::vector<double> TableReader::numbers(const std::string &key, Range range, std::size_t least, std::size_t most)
 {
   const toml::node &value = node(key);

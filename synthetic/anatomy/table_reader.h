@@ -31,6 +31,8 @@ public:
   double number(const std::string &key, Range range);
   int integer(const std::string &key, int low, int high);
   std::string text(const std::string &key);
+  /// `otherwise` when the key is absent.
+  bool flag(const std::string &key, bool otherwise);
   std::vector<double> numbers(const std::string &key, Range range, std::size_t least, std::size_t most = 100);
   std::vector<int> integers(const std::string &key, int low, int high, std::size_t size);
   Eigen::Vector3d point(const std::string &key, Range range = any_number);

@@ -74,6 +74,7 @@ struct ReferenceTruss
   Eigen::Vector3d fixed_point = Eigen::Vector3d::Zero(); ///< mm; used when part_b is empty
   double area = 0;                                       ///< mm^2
   std::string material;                                  ///< key into ReferenceModel::materials
+  bool tension_only = false;                             ///< slack in compression
 };
 
 /// What the reference solver needs beside the parts.

@@ -150,7 +150,7 @@ ReferenceSolid read_solid(const GroupReader &group, const std::string &name)
 void write_trusses(GroupWriter group, const std::vector<ReferenceTruss> &trusses)
 {
   std::vector<std::string> groups, parts_a, parts_b, materials;
-  std::vector<std::int32_t> nodes_a, nodes_b;
+  std::vector<std::int32_t> nodes_a, nodes_b, tension_only;
   std::vector<double> areas;
   Points fixed_points(static_cast<Eigen::Index>(trusses.size()), 3);
   for (const ReferenceTruss &truss : trusses)
@@ -163,6 +163,7 @@ void write_trusses(GroupWriter group, const std::vector<ReferenceTruss> &trusses
     nodes_a.push_back(truss.node_a);
     nodes_b.push_back(truss.node_b);
     areas.push_back(truss.area);
+    tension_only.push_back(truss.tension_only ? 1 : 0);
   }
   group.texts("group", groups);
   group.texts("part_a", parts_a);
@@ -172,6 +173,7 @@ void write_trusses(GroupWriter group, const std::vector<ReferenceTruss> &trusses
   group.array("fixed_point", fixed_points);
   group.numbers("area", areas);
   group.texts("material", materials);
+  group.integers("tension_only", tension_only);
 }
 
 std::vector<ReferenceTruss> read_trusses(const GroupReader &group)
@@ -187,6 +189,7 @@ std::vector<ReferenceTruss> read_trusses(const GroupReader &group)
   };
   const std::vector<std::string> parts_a = column("part_a"), parts_b = column("part_b"), materials = column("material");
   const std::vector<std::int32_t> nodes_a = group.integers("node_a", count), nodes_b = group.integers("node_b", count);
+  const std::vector<std::int32_t> tension_only = group.integers("tension_only", count);
   const std::vector<double> areas = group.numbers("area", count);
   const Points fixed_points = group.array<Points>("fixed_point", count);
   std::vector<ReferenceTruss> trusses;
@@ -198,7 +201,8 @@ std::vector<ReferenceTruss> read_trusses(const GroupReader &group)
                        .node_b = nodes_b[i],
                        .fixed_point = fixed_points.row(static_cast<Eigen::Index>(i)),
                        .area = areas[i],
-                       .material = materials[i]});
+                       .material = materials[i],
+                       .tension_only = tension_only[i] != 0});
   return trusses;
 }
 

@@ -65,6 +65,11 @@ TEST(CaseFile, RefusesAnUnknownKeyAndListsTheKnownOnes)
   expect_complaint(altered("tilt = 3.0", "tilt = 3.0\ntild = 1"), {"plane.tild", "not a known key", "tilt", "remove"});
 }
 
+TEST(CaseFile, RefusesATensionOnlyFlagThatIsNoBoolean)
+{
+  expect_complaint(altered("n_bars = 8\n", "n_bars = 8\ntension_only = 1\n"), {"tension_only", "true or false"});
+}
+
 TEST(CaseFile, RefusesAMissingKey)
 {
   expect_complaint(altered("tilt = 3.0", ""), {"plane.tilt", "missing"});

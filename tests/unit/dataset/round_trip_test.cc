@@ -71,6 +71,8 @@ TEST(AnatomyFile, ComesBackExactly)
   EXPECT_EQ(loaded.reference.materials.at("wall").kappa, 1.0 / 3);
   EXPECT_EQ(loaded.reference.trusses.at(1).part_b, "uterus");
   EXPECT_EQ(loaded.reference.trusses.at(0).fixed_point, saved.reference.trusses[0].fixed_point);
+  EXPECT_FALSE(loaded.reference.trusses.at(0).tension_only);
+  EXPECT_TRUE(loaded.reference.trusses.at(1).tension_only);
   EXPECT_EQ(loaded.reference.ties, saved.reference.ties);
   EXPECT_EQ(loaded.reference.n_increments, 4);
   EXPECT_EQ(loaded.registration.bodies.at(1).hexes, saved.registration.bodies[1].hexes);

@@ -100,7 +100,7 @@ Anatomy sample_anatomy()
   anatomy.reference.shells = {shell};
   anatomy.reference.solids = {solid};
   anatomy.reference.trusses = {{"cardinal_left", "vagina", 5, "", -1, {50.5, 1, 2}, 3.5, "ligament"},
-                               {"hiatus", "vagina", 6, "uterus", 2, {0, 0, 0}, 0.5, "ligament"}};
+                               {"hiatus", "vagina", 6, "uterus", 2, {0, 0, 0}, 0.5, "ligament", true}};
   anatomy.reference.contact_pairs = {{"vagina", "uterus"}};
   anatomy.reference.ties = {{"uterus", "vagina"}};
   anatomy.reference.target_displacement = 2.1;

@@ -1,3 +1,4 @@
+#include "reference_fe/constraints/dead_load.h"
 #include "reference_fe/elements/quadratic_tetrahedron.h"
 #include "reference_fe/elements/truss.h"
 #include "reference_fe/newton_solver.h"
@@ -36,13 +37,57 @@ TEST(Truss, StressIsTheDerivativeOfTheEnergyAndModulusOfTheStress)
   EXPECT_NEAR(uniaxial_response(wall, 1).modulus, 6 * wall.c10, 1e-14);
 }
 
+TEST(Truss, ATensionOnlyBarSlackensSmoothlyAndCarriesItsLawInTension)
+{
+  for (const double lambda : {0.6, 0.9, 0.999, 1.001, 1.004, 1.009, 1.011, 1.3})
+  {
+    const double step = 1e-6;
+    const UniaxialResponse at = tension_only_response(wall, lambda), plus = tension_only_response(wall, lambda + step),
+                           minus = tension_only_response(wall, lambda - step);
+    EXPECT_NEAR(at.stress, (plus.energy - minus.energy) / (2 * step), 1e-8) << lambda;
+    EXPECT_NEAR(at.modulus, (plus.stress - minus.stress) / (2 * step), 1e-5) << lambda;
+    EXPECT_GT(at.modulus, 0) << lambda;
+  }
+  const double remainder = tension_only_remainder * 6 * wall.c10;
+  EXPECT_EQ(tension_only_response(wall, 1).stress, 0);
+  EXPECT_NEAR(tension_only_response(wall, 0.8).stress, -0.2 * remainder, 1e-15);
+  EXPECT_NEAR(tension_only_response(wall, 1.3).stress,
+              uniaxial_response(wall, 1.3 - tension_only_width / 2).stress + 0.3 * remainder, 1e-15);
+}
+
+TEST(Truss, NewtonsMethodConvergesAcrossTheSlackeningOfATensionOnlyBar)
+{
+  // A node between two cords in line, pulled along them beyond the point where one goes slack, and back.
+  EquilibriumSystem system;
+  const int first = system.add_unknowns(3, {"node"});
+  Bar left{"", {free_node(first, {0, 0, 0})}, {-10, 0, 0}, 2, wall}, right = left;
+  right.fixed_end = {10, 0, 0};
+  left.tension_only = right.tension_only = true;
+  system.add_term(std::make_shared<Trusses>(std::vector<Bar>{left, right}));
+  const auto pull = std::make_shared<DeadLoad>(std::vector<std::pair<int, double>>{{first, 0.5}});
+  system.add_term(pull);
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(3);
+  for (const double factor : {1., 0.1, -1., 0.})
+  {
+    pull->set_factor(factor);
+    const NewtonResult result = solve_newton(system, solution, {.residual_tolerance = 1e-10});
+    EXPECT_TRUE(result.converged()) << factor << " " << result.message;
+    const double taut = std::abs(solution[0]) / 10; // of the cord that carries
+    EXPECT_NEAR(2 * tension_only_response(wall, 1 + taut).stress - 2 * tension_only_response(wall, 1 - taut).stress,
+                0.5 * std::abs(factor), 1e-9);
+  }
+  EXPECT_NEAR(solution.norm(), 0, 1e-6);
+}
+
 TEST(Truss, ResidualAndTangentAgreeWithDifferenceQuotients)
 {
   Bar between{"", {free_node(0, {0, 0, 0}), free_node(3, {3, 1, 2})}, {}, 2.5, wall};
   Bar to_point{"", {free_node(0, {0, 0, 0})}, {1, -2, 4}, 1.5, wall};
-  const Trusses bars({between, to_point});
+  Bar cord = between;
+  cord.tension_only = true;
+  const Trusses bars({between, to_point, cord});
   const Eigen::VectorXd solution = 0.5 * scattered(6, 11);
-  for (const int item : {0, 1})
+  for (const int item : {0, 1, 2})
   {
     EXPECT_LT(residual_error(bars, item, solution, 1e-5), 1e-7);
     EXPECT_LT(tangent_error(bars, item, solution, 1e-5), 1e-7);
