@@ -1,11 +1,10 @@
 #include "tests/verification/reference_fe/shell/equilibrium_path.h"
 
-#include "reference_fe/constraints/dead_load.h"
 #include "reference_fe/constraints/path_control.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <ctime>
 #include <stdexcept>
 #include <utility>
 
@@ -24,95 +23,206 @@ std::vector<SurfaceNode> midsurface_nodes(const SingleShell &shell)
   return nodes;
 }
 
-/// Largest growth of an observed displacement, in units of its scale.
-double step_length(const PathPoint &from, const PathPoint &to, const std::vector<double> &scale)
+std::vector<double> largest_entries(const std::vector<std::vector<double>> &table)
 {
-  double largest = 0;
-  for (std::size_t k = 0; k < scale.size(); ++k)
-    largest = std::max(largest, std::abs(to[k + 1] - from[k + 1]) / scale[k]);
+  std::vector<double> largest(table.at(0).size(), 0);
+  for (const std::vector<double> &row : table)
+    for (std::size_t k = 0; k < row.size(); ++k)
+      largest[k] = std::max(largest[k], std::abs(row[k]));
   return largest;
 }
 
-double distance_to_segment(const Eigen::Vector2d &p, const Eigen::Vector2d &a, const Eigen::Vector2d &b)
+/// Walks from rest along the table's rows.
+class TableFollower
 {
-  const double length = (b - a).squaredNorm();
-  const double t = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0., 1.) : 0;
-  return (p - a - t * (b - a)).norm();
-}
+public:
+  TableFollower(LoadedShell &loaded, const std::vector<std::vector<double>> &table, const PathOptions &options)
+      : loaded_(loaded), system_(loaded.shell->system), table_(table), scale_(largest_entries(table)), options_(options)
+  {
+    load_ = system_.add_unknowns(1, {"load factor"});
+    system_.add_term(loaded.load(load_));
+    control_ = std::make_shared<PathControl>(midsurface_nodes(*loaded.shell), load_);
+    system_.add_term(control_);
+    newton_.residual_tolerance = loaded.residual_tolerance;
+    newton_.max_merit_growth = 1e12;
+    current_ = previous_ = Eigen::VectorXd::Zero(system_.n_unknowns());
+  }
+
+  CurveComparison run()
+  {
+    const std::clock_t start = std::clock();
+    system_.fix(load_);
+    comparison_.n_unknowns = system_.n_free() + (options_.arc_length ? 1 : 0);
+    comparison_.table = table_;
+    if (options_.arc_length)
+      follow_by_arc_length();
+    else
+      follow_by_load();
+    comparison_.cpu_seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    return std::move(comparison_);
+  }
+
+private:
+  std::vector<double> row_at(const Eigen::VectorXd &x) const
+  {
+    std::vector<double> row = loaded_.observe(x);
+    row.insert(row.begin(), x[load_]);
+    return row;
+  }
+
+  /// Iterations taken; -1 when it failed.
+  int solve(Eigen::VectorXd &x, int max_iterations = 60)
+  {
+    newton_.max_iterations = max_iterations;
+    const NewtonResult result = solve_newton(system_, x, newton_);
+    const int n = static_cast<int>(result.iterations.size());
+    comparison_.n_iterations += n;
+    return result.converged() ? n : -1;
+  }
+
+  [[noreturn]] void fail(const std::string &what, double at) const
+  {
+    throw std::runtime_error(what + " at the load factor " + std::to_string(at));
+  }
+
+  void follow_by_load()
+  {
+    for (const std::vector<double> &row : table_)
+    {
+      current_[load_] = row[0];
+      if (solve(current_) < 0)
+        fail("no equilibrium", row[0]);
+      comparison_.computed.push_back(row_at(current_));
+      ++comparison_.n_points;
+    }
+  }
+
+  void follow_by_arc_length()
+  {
+    current_[load_] = options_.first_load;
+    if (solve(current_) < 0)
+      fail("no equilibrium", options_.first_load);
+    ++comparison_.n_points;
+    land_on_rows();
+    double ratio = 1;
+    while (comparison_.computed.size() < table_.size())
+    {
+      if (comparison_.n_points > options_.max_points || ratio < 0.01)
+        fail("the path ends", current_[load_]);
+      Eigen::VectorXd trial = current_ + ratio * (current_ - previous_);
+      system_.release(load_);
+      control_->prescribe(current_, trial);
+      const int n_iterations = solve(trial, options_.max_iterations);
+      if (n_iterations < 0 || growth(trial) > 2 * options_.largest_step)
+      {
+        ratio *= 0.5;
+        continue;
+      }
+      previous_ = std::exchange(current_, trial);
+      ++comparison_.n_points;
+      const double length = growth(previous_);
+      ratio = std::min(2 * n_iterations > options_.max_iterations ? 0.7 : 1.5,
+                       options_.largest_step / std::max(length, 1e-12));
+      land_on_rows();
+    }
+  }
+
+  /// Largest change of the load or an observed displacement from the current state, in units of its largest tabulated
+  /// value. The load too: where a displacement turns back the rest of the shell goes on.
+  double growth(const Eigen::VectorXd &to) const
+  {
+    const std::vector<double> a = row_at(current_), b = row_at(to);
+    double largest = 0;
+    for (std::size_t k = 0; k < scale_.size(); ++k)
+      largest = std::max(largest, std::abs(b[k] - a[k]) / scale_[k]);
+    return largest;
+  }
+
+  /// Computes the rows that the last step went past.
+  void land_on_rows()
+  {
+    while (comparison_.computed.size() < table_.size())
+    {
+      const int index = static_cast<int>(comparison_.computed.size());
+      const std::vector<double> &row = table_[index];
+      const std::size_t column = options_.at_displacement(index) ? 1 : 0;
+      const double before = row_at(previous_)[column], after = row_at(current_)[column];
+      if ((row[column] - before) * (row[column] - after) > 0)
+        return;
+      comparison_.computed.push_back(land(row[column], column));
+    }
+  }
+
+  /// The state between previous and current whose load (column 0) or displacement (1) is `value`, from the line between
+  /// them; where Newton's method fails or runs away, the segment is first halved along the path.
+  std::vector<double> land(double value, std::size_t column)
+  {
+    Eigen::VectorXd a = previous_, b = current_;
+    for (int halving = 0; halving < 8; ++halving)
+    {
+      const double before = row_at(a)[column], after = row_at(b)[column];
+      const Eigen::VectorXd guess = a + (value - before) / (after - before) * (b - a);
+      Eigen::VectorXd x = guess;
+      if ((column == 0 ? solve_at_load(x, value) : solve_at_displacement(x, value)) &&
+          (x - guess).norm() <= (b - a).norm())
+        return row_at(x);
+      Eigen::VectorXd middle = 0.5 * (a + b);
+      system_.release(load_);
+      control_->prescribe(a, middle);
+      if (solve(middle, options_.max_iterations) < 0)
+        break;
+      ((value - before) * (value - row_at(middle)[column]) <= 0 ? b : a) = middle;
+    }
+    fail(column == 0 ? "no equilibrium at this load" : "no equilibrium at a row's displacement", value);
+  }
+
+  bool solve_at_load(Eigen::VectorXd &x, double factor)
+  {
+    system_.fix(load_);
+    x[load_] = factor;
+    return solve(x, options_.max_iterations) >= 0;
+  }
+
+  /// The point's displacement is prescribed without any load; its reaction is the load.
+  bool solve_at_displacement(Eigen::VectorXd &x, double displacement)
+  {
+    const LoadedShell::PointLoad &point = loaded_.point_load;
+    system_.fix(load_);
+    system_.fix(point.unknown);
+    const double guess = x[load_];
+    x[load_] = 0;
+    x[point.unknown] = displacement / point.displacement_per_unknown;
+    const bool solved = solve(x, options_.max_iterations) >= 0;
+    x[load_] = solved ? system_.residual()[point.unknown] / point.force : guess;
+    system_.release(point.unknown);
+    return solved;
+  }
+
+  LoadedShell &loaded_;
+  EquilibriumSystem &system_;
+  const std::vector<std::vector<double>> &table_;
+  std::vector<double> scale_;
+  PathOptions options_;
+  NewtonOptions newton_;
+  int load_ = 0;
+  std::shared_ptr<PathControl> control_;
+  Eigen::VectorXd previous_, current_;
+  CurveComparison comparison_;
+};
 } // namespace
 
-std::vector<PathPoint> follow_path(SingleShell &shell, const std::vector<std::pair<int, double>> &forces,
-                                   const std::function<std::vector<double>(const Eigen::VectorXd &)> &observe,
-                                   const std::vector<double> &scale, const PathOptions &options)
+double CurveComparison::largest_difference(int column, double begin, double end) const
 {
-  EquilibriumSystem &system = shell.system;
-  const int load = system.add_unknowns(1, {"load factor"});
-  system.add_term(std::make_shared<DeadLoad>(forces, load));
-  const auto control = std::make_shared<PathControl>(midsurface_nodes(shell), load);
-  system.add_term(control);
-  NewtonOptions newton;
-  double largest_force = 0;
-  for (const auto &[unknown, force] : forces)
-    largest_force = std::max(largest_force, std::abs(force));
-  newton.residual_tolerance = 1e-8 * largest_force;
-  newton.max_iterations = options.max_iterations;
-  newton.max_merit_growth = 1e12;
-
-  Eigen::VectorXd previous = Eigen::VectorXd::Zero(system.n_unknowns()), current = previous;
-  const auto point = [&](const Eigen::VectorXd &x)
-  {
-    PathPoint p = observe(x);
-    p.insert(p.begin(), x[load]);
-    return p;
-  };
-  std::vector<PathPoint> path = {point(current)};
-  current[load] = options.first_load;
-  system.fix(load);
-  if (!solve_newton(system, current, newton).converged())
-    throw std::runtime_error("the first step of the path failed");
-  system.release(load);
-  path.push_back(point(current));
-
-  double ratio = 1;
-  while (path.back()[0] < options.largest_load)
-  {
-    if (static_cast<int>(path.size()) > options.max_points || ratio < 0.01)
-      throw std::runtime_error("the path ends at the load factor " + std::to_string(path.back()[0]));
-    Eigen::VectorXd trial = current + ratio * (current - previous);
-    control->prescribe(current, trial);
-    const NewtonResult result = solve_newton(system, trial, newton);
-    if (!result.converged() || step_length(path.back(), point(trial), scale) > 2 * options.largest_step)
-    {
-      ratio *= 0.5;
-      continue;
-    }
-    previous = std::exchange(current, trial);
-    path.push_back(point(current));
-    const double length = step_length(path[path.size() - 2], path.back(), scale);
-    const double wanted = 2 * static_cast<int>(result.iterations.size()) > options.max_iterations ? 0.7 : 1.5;
-    ratio = std::min(wanted, options.largest_step / std::max(length, 1e-12));
-  }
-  return path;
+  double largest = 0;
+  for (std::size_t row = 0; row < table.size(); ++row)
+    if (table[row][0] > begin && table[row][0] <= end)
+      largest = std::max(largest, std::abs(computed.at(row)[column] - table[row][column]));
+  return largest / largest_entries(table)[column];
 }
 
-double largest_distance(const std::vector<PathPoint> &path, const std::vector<std::vector<double>> &table, int column)
+CurveComparison follow_table(LoadedShell &loaded, const std::vector<std::vector<double>> &table,
+                             const PathOptions &options)
 {
-  double load_scale = 0, scale = 0;
-  for (const std::vector<double> &row : table)
-  {
-    load_scale = std::max(load_scale, std::abs(row[0]));
-    scale = std::max(scale, std::abs(row[column]));
-  }
-  const auto scaled = [&](const std::vector<double> &row)
-  { return Eigen::Vector2d(row[0] / load_scale, row[column] / scale); };
-  double largest = 0;
-  for (const std::vector<double> &row : table)
-  {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k + 1 < path.size(); ++k)
-      nearest = std::min(nearest, distance_to_segment(scaled(row), scaled(path[k]), scaled(path[k + 1])));
-    largest = std::max(largest, nearest);
-  }
-  return largest;
+  return TableFollower(loaded, table, options).run();
 }
 } // namespace pelvireg::reference_fe

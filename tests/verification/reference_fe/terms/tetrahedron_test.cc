@@ -9,11 +9,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iostream>
 #include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace pelvireg::reference_fe
 {
@@ -187,6 +190,100 @@ TEST(QuadraticTetrahedron, AThickCylinderFollowsTheIncompressibleClosedForm)
     EXPECT_LT(std::abs(stiff), largest[level]);
     EXPECT_NEAR(soft - stiff, -1.5e-3, 1e-4);
   }
+}
+
+/// Displacement of the inner face of MacNeal and Harder's thick-walled cylinder (inner radius 3, outer 9, E 1000, inner
+/// pressure 1, plane strain) over their theory: a quarter, `n` bricks through the wall, linear.
+double linear_thick_cylinder(int n, double poisson_ratio, double theory)
+{
+  const double a = 3, b = 9, e = 1000, mu = e / (2 * (1 + poisson_ratio)), kappa = e / (3 * (1 - 2 * poisson_ratio));
+  const auto map = [&](const Eigen::Vector3d &p)
+  {
+    const double r = a * std::pow(b / a, p.x()), angle = std::numbers::pi / 2 * p.y(); // cells nearly square
+    return Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), p.z());
+  };
+  SolidProblem tube({n, n + 2, 1}, map, {mu / 2, 0, 0, kappa});
+  const int pressure = tube.system.add_unknowns(1, {"pressure"});
+  tube.system.add_term(std::make_shared<FollowerPressure>(tube.faces(0, 0), pressure));
+  tube.system.fix(pressure);
+  tube.fix(1, 0, {1});
+  tube.fix(1, 1, {0});
+  for (int node = 0; node < tube.n_nodes(); ++node)
+    tube.system.fix(3 * node + 2);
+  tube.solution = Eigen::VectorXd::Zero(tube.system.n_unknowns());
+  tube.solution[pressure] = 1e-6; // so small that the first Newton step is the linear solution
+  tube.system.assemble(tube.solution, true);
+  EXPECT_TRUE(tube.system.factorise());
+  const Eigen::VectorXd x = tube.system.solve(-tube.system.residual()) / tube.solution[pressure];
+  double radial = 0;
+  int count = 0;
+  for (int node = 0; node < tube.n_nodes(); ++node)
+    if (tube.is_on(node, 0, 0))
+    {
+      radial += x.segment<3>(3 * node).dot(tube.solid.points.row(node).transpose()) / a;
+      ++count;
+    }
+  return -radial / count / theory; // the face's normal looks inward, as the pressure's sign does
+}
+
+TEST(QuadraticTetrahedron, MacNealAndHardersThickCylinderDoesNotLockNearIncompressibility)
+{
+  for (const auto &[poisson_ratio, theory] : {std::pair{0.49, 5.0399e-3}, {0.499, 5.0602e-3}, {0.4999, 5.0623e-3}})
+  {
+    const double coarse = std::abs(linear_thick_cylinder(3, poisson_ratio, theory)),
+                 fine = std::abs(linear_thick_cylinder(6, poisson_ratio, theory));
+    std::cout << fmt::format("| thick-walled cylinder, nu {} | {:.4f} | {:.4f} |\n", poisson_ratio, coarse, fine);
+    EXPECT_NEAR(coarse, 1, 2e-2);
+    EXPECT_NEAR(fine, 1, 2e-3);
+  }
+}
+
+/// The compressed block: a quarter of 2 x 2 x 1 mm on a smooth floor, its top held sideways, pressed over a quarter of
+/// the top around the middle. Returns how far the middle of the top goes down, of the height.
+std::vector<double> compressed_block(int n, const std::vector<double> &pressures)
+{
+  SolidProblem block({n, n, n}, [](const Eigen::Vector3d &p) { return p; }, {80.194 / 2, 0, 0, 400889.806});
+  block.fix(0, 0, {0});
+  block.fix(1, 0, {1});
+  block.fix(2, 0, {2});
+  block.fix(2, 1, {0, 1});
+  std::map<int, double> force;
+  for (const SurfaceFace &face : block.faces(2, 1))
+  {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k)
+      centre += face.nodes[k].rest / 3;
+    for (int k = 3; k < 6 && centre.x() < 0.5 && centre.y() < 0.5; ++k)
+      force[face.nodes[k].first_unknown + 2] -= 0.5 / (n * n) / 3; // of a triangle's area
+  }
+  const auto load = std::make_shared<DeadLoad>(std::vector<std::pair<int, double>>(force.begin(), force.end()));
+  block.system.add_term(load);
+  int middle = 0;
+  while (!(block.is_on(middle, 0, 0) && block.is_on(middle, 1, 0) && block.is_on(middle, 2, 1)))
+    ++middle;
+  std::vector<double> levels;
+  for (double pressure = 10; pressure <= pressures.back(); pressure += 10)
+  {
+    load->set_factor(pressure);
+    block.solve();
+    if (std::find(pressures.begin(), pressures.end(), pressure) != pressures.end())
+      levels.push_back(-block.solution[3 * middle + 2]);
+  }
+  return levels;
+}
+
+// mu = 80.194 MPa, lambda = 400889.806 MPa (kappa/mu = 5000): Reese, Küssner, Reddy, Int. J. Numer. Meth. Eng. 44
+// (1999) 1617. At 320 MPa Scovazzi, Zorrilla, Rossi, Comput. Methods Appl. Mech. Eng. 412 (2023) 116076 have about
+// 0.70. A pressure on a top that only moves down is a dead load.
+TEST(QuadraticTetrahedron, TheCompressedBlockDoesNotLock)
+{
+  const std::vector<double> pressures = {80, 160, 240, 320};
+  const std::vector<double> coarse = compressed_block(2, pressures), fine = compressed_block(4, pressures);
+  for (std::size_t i = 0; i < pressures.size(); ++i)
+    std::cout << fmt::format("block under {} MPa: compressed by {:.2f} % with 2 bricks a side, {:.2f} % with 4\n",
+                             pressures[i], 100 * coarse[i], 100 * fine[i]);
+  EXPECT_NEAR(fine.back(), 0.70, 0.015);
+  EXPECT_NEAR(coarse.back(), fine.back(), 0.02);
 }
 } // namespace
 } // namespace pelvireg::reference_fe
