@@ -178,6 +178,25 @@ void check_point_attachment(const Model &model, const PointAttachment &attachmen
           attachment.compliance, " mm/N, must be finite and not negative");
 }
 
+void check_contact_pairs(const Model &model)
+{
+  const int n_bodies = static_cast<int>(model.bodies.size());
+  std::set<std::pair<int, int>> seen;
+  for (const ContactPair &pair : model.contact_pairs)
+  {
+    const std::string where = "contact pair " + std::to_string(seen.size());
+    for (const int body : {pair.body_a, pair.body_b})
+    {
+      require(body >= 0 && body < n_bodies, where, ": body ", body, " does not exist, must lie in [0, ", n_bodies, ")");
+      require(is_organ(model.bodies[body]), where, ": body '", model.bodies[body].name,
+              "' has no outer triangles, so nothing can touch it; name two organs");
+    }
+    require(pair.body_a != pair.body_b, where, ": joins body ", pair.body_a, " to itself; name two different bodies");
+    require(seen.insert(std::minmax(pair.body_a, pair.body_b)).second, where, ": bodies ", pair.body_a, " and ",
+            pair.body_b, " are paired twice; name every pair once");
+  }
+}
+
 void check_body(const Body &body)
 {
   const std::string where = "body '" + body.name + "'";
@@ -210,5 +229,6 @@ void check_model(const Model &model)
     check_attachment(model, attachment);
   for (const PointAttachment &attachment : model.point_attachments)
     check_point_attachment(model, attachment);
+  check_contact_pairs(model);
 }
 } // namespace pelvireg::registration

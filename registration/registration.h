@@ -51,11 +51,18 @@ struct PointAttachment
   double compliance = 0; ///< mm/N, per row
 };
 
+/// Two organs whose outer surfaces may touch. Where an attachment joins them they are held and not in contact.
+struct ContactPair
+{
+  int body_a = 0, body_b = 0;
+};
+
 struct Model
 {
   std::vector<Body> bodies;
   std::vector<Attachment> attachments;
   std::vector<PointAttachment> point_attachments;
+  std::vector<ContactPair> contact_pairs;
 };
 
 /// Control points of one organ in the image plane.
@@ -90,9 +97,19 @@ struct Options
   /// demands exactness and is safe only when control points are sparser than nodes.
   double sliding_compliance = 0.02;
   double attachment_compliance = 0; ///< mm/N, per attachment row (added to Attachment::compliance)
+  bool use_contact = true;          ///< contact phi of Model::contact_pairs
+  /// Coulomb, between organs. No coefficient between pelvic organs is published; 0.05 to 0.1 is the range that
+  /// sensitivity studies take, and the paper holds organs back by friction. 0: organs slide freely.
+  double friction_coefficient = 0.1;
+  double contact_pixel = 1;         ///< mm between the rays that see overlaps, >= 0.05
+  double contact_cell = 8;          ///< mm, edge of the cells in which overlap is gathered into one contact
+  double contact_margin = 0.3;      ///< mm: surfaces this near are watched, so that what touches stays in contact
+  double contact_compliance = 1e-3; ///< mm/N, per contact row
+  double max_recovery = 1;          ///< mm: the most by which one step drives overlapping bodies apart in a cell
   int max_sweeps = 500;
-  double tolerance_mm = 1e-6; ///< the constraint solve stops when the largest change of a row's gap is below
-  int n_threads = 1;          ///< results are bit-identical for every value
+  double tolerance_mm = 1e-6;     ///< the constraint solve stops when the largest change of a row's gap is below …
+  double tolerance_newton = 1e-4; ///< … and, for contacts, the largest change of a force
+  int n_threads = 1;              ///< results are bit-identical for every value
 
   /// All problems as sentences; empty when the options are usable.
   std::vector<std::string> violations() const;
@@ -101,9 +118,10 @@ struct Options
 enum class StepStatus
 {
   ok,
-  no_control_points,    ///< no control point was offered or accepted, and the model has no point attachment in use:
-                        ///< nothing drives the step, positions unchanged
-  not_finite,           ///< NaN in the observation or the solution: positions unchanged
+  no_control_points, ///< no control point was offered or accepted, and the model has no point attachment in use:
+                     ///< nothing drives the step, positions unchanged
+  not_finite,        ///< NaN in the observation or the solution: positions unchanged
+  diverged,          ///< a node leaves the model's neighbourhood (its box, three times as large): positions unchanged
   factorisation_failed, ///< positions unchanged
   invalid_observation ///< unknown body, body without outer surface, unequal counts or a plane normal that is not unit:
                       ///< positions unchanged
@@ -123,7 +141,44 @@ struct StepSummary
   double attachment_residual = 0;    ///< mm, largest norm over attached nodes
   double out_of_plane_force = 0;     ///< N, largest |(H^T lambda) . plane normal| of a node over the sliding rows
   double in_plane_force = 0;         ///< N, largest in-plane norm of the same
-  int sweeps = 0;                    ///< of the constraint solve: 1 for the direct solution, more when it was refined
+  int sweeps = 0; ///< over the contacts; without contacts 1 for the direct solution, more when it was refined
+  double largest_motion = 0;          ///< mm, of a node in this step
+  double unbalanced_force = 0;        ///< N, largest of a free node before the step: elastic and constraint forces
+  int n_contacts = 0;                 ///< constraints of overlap or nearness offered to the solver
+  double contact_force = 0;           ///< N, sum of the normal forces
+  double contact_motion_residual = 0; ///< mm, of the natural map of contact and friction; see ContactResidual
+  double contact_force_residual = 0;  ///< N, same
+  double complementarity = 0;         ///< N mm, largest product of a contact's force and separation
+  double cone_violation = 0;          ///< N, largest excess of a friction force over mu times the normal force
+  double penetration_depth = 0;       ///< mm, deepest overlap after the step over all pairs, seen by the rays
+  double penetration_volume = 0;      ///< mm^3, sum over the pairs
+  int n_open_rays = 0;                ///< rays that crossed a surface inward and outward unequally often: left out
+};
+
+/// One pair after the last step; overlap as the rays see it, without what is attached.
+struct PairPenetration
+{
+  int body_a = 0, body_b = 0;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(); ///< N, on body a, friction included
+  double depth = 0;                                ///< mm, across the surfaces
+  double volume = 0;                               ///< mm^3
+  int n_contacts = 0;
+  int n_open_rays = 0;
+};
+
+/// When settle() may stop: both must hold.
+struct EquilibriumTolerance
+{
+  double motion_mm = 1e-3;    ///< StepSummary::largest_motion
+  double force_newton = 1e-2; ///< StepSummary::unbalanced_force
+  int max_steps = 1000;
+};
+
+struct Equilibrium
+{
+  bool is_reached = false;
+  int n_steps = 0;
+  StepSummary last_step;
 };
 
 /// Wall time of the last step by phase, ms. Kept apart from StepSummary, which is the same on every run.
@@ -137,17 +192,14 @@ struct PhaseTimes
   double solve = 0;      ///< multipliers
   double correct = 0;
   double summarise = 0; ///< residuals on a fresh matching
+  double contact = 0;   ///< detection, for the step's summary and the next step's rows
 };
 
-/// Size of the prepared system, over the bodies that take part.
-struct SystemSize
-{
-  int n_unknowns = 0;
-  long n_factor_values = 0; ///< doubles stored for the Cholesky factors, 8 bytes each
-};
-
-/// The registration. Not copyable; movable. In the steady state update() allocates nothing.
-class Registration
+no_control_points, ///< no control point was offered or accepted, and the model has no point attachment in use:
+                   ///< nothing drives the step, positions unchanged
+    not_finite,    ///< NaN in the observation or the solution: positions unchanged
+    diverged,      ///< a node leaves the model's neighbourhood (its box, three times as large): positions unchanged
+    class Registration
 {
 public:
   Registration();
@@ -163,16 +215,13 @@ public:
   /// never an exception; the positions keep the last valid state.
   StepSummary update(const Observation &observation);
 
-  /// Move the points of Model::point_attachments[attachment] for the next steps: n x 3, mm, as many as it has nodes.
-  /// Throws std::invalid_argument with one sentence for an unknown attachment, another number of points or a point that
-  /// is not finite.
-  void move_points(int attachment, const Points &points);
+  no_control_points, ///< no control point was offered or accepted, and the model has no point attachment in use:
+                     ///< nothing drives the step, positions unchanged
+      not_finite,    ///< NaN in the observation or the solution: positions unchanged
+      diverged,      ///< a node leaves the model's neighbourhood (its box, three times as large): positions unchanged
 
-  /// Unknowns and memory of the prepared model.
-  SystemSize system_size() const;
-
-  /// Current positions of a body (index into Model::bodies), n x 3, mm. A body that takes no part stays at rest.
-  const Points &positions(int body) const;
+      /// Current positions of a body (index into Model::bodies), n x 3, mm. A body that takes no part stays at rest.
+      const Points &positions(int body) const;
 
   /// Wall time of the last update().
   const PhaseTimes &phase_times() const;

@@ -12,6 +12,8 @@ enum class RowKind
 {
   sliding,    ///< omega: a control point of the outline
   attachment, ///< chi: an attached node, one row an axis
+  contact,    ///< phi: overlap of two bodies in a cell; unilateral
+  friction,   ///< along a contact's surface; two follow their contact row
 };
 
 /// A row's Jacobian with respect to one node: d(row) / d(position of the node).
@@ -22,7 +24,8 @@ struct RowEntry
   Eigen::Vector3d jacobian = Eigen::Vector3d::Zero();
 };
 
-/// Rows H x + C lambda = delta, x being the displacement of the step (mm), delta the gap to close (mm).
+/// Rows H x + C lambda = delta, x being the displacement of the step (mm), delta the gap to close (mm). Bilateral rows
+/// come first, contact rows last.
 class ConstraintRows
 {
 public:

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pelvireg::dataset
@@ -21,6 +22,14 @@ struct StepRecord
   double out_of_plane_force = 0;  ///< N, largest nodal component along the plane's normal of the sliding rows' forces
   double in_plane_force = 0;      ///< N, largest nodal in-plane component of the same
   int solver_sweeps = 0;
+  int contacts = 0;                   ///< contact constraints offered to the solver
+  double contact_force = 0;           ///< N, sum of the contacts' normal forces
+  double contact_residual = 0;        ///< mm, how far the solve is from the laws of contact and friction
+  double friction_cone_violation = 0; ///< N, largest excess of a friction force over its limit
+  int open_rays = 0;                  ///< rays that an organ's surface did not close: left out of the contacts
+  /// After the step, one a pair of Estimate::contact_pairs, as the registration sees it.
+  std::vector<double> penetration_depth;  ///< mm
+  std::vector<double> penetration_volume; ///< mm^3
 };
 
 /// One registered organ: the outer surface, with its positions at each step.
@@ -45,6 +54,8 @@ struct Estimate
   std::string case_name;
   std::string condition; ///< "full", "no_boundary_conditions", …
   std::vector<EstimateSample> samples;
+  /// Organs that were kept from penetrating each other; empty when the condition has no contact.
+  std::vector<std::pair<std::string, std::string>> contact_pairs;
 };
 
 void save(const Estimate &estimate, const std::filesystem::path &file);

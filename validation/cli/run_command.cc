@@ -40,7 +40,7 @@ void run_chain(const Arguments &given, const std::string &command_line)
   make_anatomy(directory, label, text);
   make_truth(directory, given.jobs);
   make_observations(directory);
-  for (const std::string &condition : runner::condition_names())
+  for (const std::string &condition : runner::default_conditions())
     make_estimate(directory, condition, given.settings, given.jobs);
   make_errors(directory, given.jobs);
   make_report(directory, given.jobs);

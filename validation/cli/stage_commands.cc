@@ -15,7 +15,7 @@ namespace
 struct Arguments
 {
   std::string directory;
-  std::vector<std::string> conditions = runner::condition_names();
+  std::vector<std::string> conditions = runner::default_conditions();
   SampleSettings settings;
   int jobs = 1;
   std::string log_file; ///< of the reference
@@ -51,11 +51,13 @@ void add_register(CLI::App &program, Invocation &invocation)
                                     for (const std::string &condition : given.conditions)
                                       make_estimate(directory, condition, given.settings, given.jobs);
                                   });
-  command->add_option("--condition", arguments->conditions, "Which constraints hold; all conditions when not given")
+  command
+      ->add_option("--condition", arguments->conditions,
+                   "Which constraints hold; full and no_boundary_conditions when not given")
       ->check(CLI::IsMember(runner::condition_names()));
   add_sample_options(*command, arguments->settings);
   add_jobs_option(*command, arguments->jobs);
-  command->footer("Examples:\n  pelvireg register out/t005\n  pelvireg register out/t005 --condition full\n"
+  command->footer("Examples:\n  pelvireg register out/t005\n  pelvireg register out/t005 --condition no_contact\n"
                   "  pelvireg register out/t005 --samples 100 --spread 0.10 --seed 1 --jobs 2");
 }
 } // namespace

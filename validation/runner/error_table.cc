@@ -120,6 +120,15 @@ std::string quality(const Evaluation &evaluation, const std::vector<StepTiming> 
                     "most {:.3f} mm\n",
                     condition, n_failed, n_steps, 100 * acceptance, residual);
   }
+  for (const std::string &condition : evaluation.conditions)
+  {
+    double deepest = 0;
+    for (const OrganPenetration &pair : evaluation.penetrations)
+      if (pair.condition == condition && !pair.is_attached)
+        deepest = std::max(deepest, pair.deepest);
+    text +=
+        fmt::format("{}: organs that are not attached reach at most {:.2f} mm into each other\n", condition, deepest);
+  }
   for (const StepTiming &timing : timings)
     text += fmt::format("{}: median {:.2f} ms a step, 95th percentile {:.2f} ms\n", timing.condition, timing.median_ms,
                         timing.p95_ms);

@@ -2,6 +2,7 @@
 
 #include "synthetic/dataset/error.h"
 #include "validation/metrics/contour_distance.h"
+#include "validation/metrics/penetration.h"
 #include "validation/metrics/surface_distance.h"
 #include "validation/metrics/surface_samples.h"
 #include "validation/runner/evaluate_checks.h"
@@ -45,6 +46,7 @@ struct RunResult
   std::vector<StepError> by_step;
   std::vector<SliceError> by_slice;
   std::vector<MissedSlice> missed_slices;
+  std::vector<OrganPenetration> penetrations;
 };
 
 struct Context
@@ -136,6 +138,37 @@ void judge_slices(const Context &context, const Run &run, std::size_t organ, Run
   }
 }
 
+bool are_attached(const dataset::RegistrationModel &model, const std::string &a, const std::string &b)
+{
+  return std::any_of(model.attachments.begin(), model.attachments.end(),
+                     [&](const dataset::RegistrationAttachment &attachment)
+                     { return std::minmax(attachment.body_a, attachment.body_b) == std::minmax(a, b); });
+}
+
+void judge_penetration(const Context &context, const Run &run, std::size_t a, std::size_t b, RunResult &result)
+{
+  OrganPenetration pair{run.condition, run.sample, organ_names[a], organ_names[b], false, 0, 0, 0};
+  pair.is_attached = are_attached(context.anatomy.registration, pair.organ_a, pair.organ_b);
+  const int last_step = context.n_increments * context.steps_per_increment;
+  // The unregistered meshes stay at rest: one position stands for all.
+  for (int step = run.estimate ? context.steps_per_increment : last_step; step <= last_step;
+       step += context.steps_per_increment)
+  {
+    const auto surface = [&](std::size_t organ)
+    {
+      const dataset::SurfaceMesh &rest = rest_surface(context, run, organ);
+      return dataset::SurfaceMesh{positions(context, run, organ, step), rest.triangles, rest.region};
+    };
+    pair.last = metrics::penetration(surface(a), surface(b)).depth;
+    if (pair.last > pair.deepest)
+    {
+      pair.deepest = pair.last;
+      pair.step_of_deepest = step;
+    }
+  }
+  result.penetrations.push_back(pair);
+}
+
 RunResult judge(const Context &context, const Run &run)
 {
   RunResult result;
@@ -143,6 +176,8 @@ RunResult judge(const Context &context, const Run &run)
   {
     judge_steps(context, run, organ, result);
     judge_slices(context, run, organ, result);
+    for (std::size_t other = organ + 1; other < organ_names.size(); ++other)
+      judge_penetration(context, run, organ, other, result);
   }
   return result;
 }
@@ -298,6 +333,8 @@ Evaluation evaluate(const dataset::Anatomy &anatomy, const dataset::Truth &truth
     evaluation.by_slice.insert(evaluation.by_slice.end(), result.by_slice.begin(), result.by_slice.end());
     evaluation.missed_slices.insert(evaluation.missed_slices.end(), result.missed_slices.begin(),
                                     result.missed_slices.end());
+    evaluation.penetrations.insert(evaluation.penetrations.end(), result.penetrations.begin(),
+                                   result.penetrations.end());
     if (evaluation.conditions.empty() || evaluation.conditions.back() != runs[i].condition)
       evaluation.conditions.push_back(runs[i].condition);
     if (runs[i].estimate)

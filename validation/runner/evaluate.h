@@ -77,6 +77,19 @@ struct RunQuality
   double largest_out_of_plane_force = 0, largest_in_plane_force = 0; ///< N, over all steps
 };
 
+/// How deep two organs of one run reach into each other at the positions' last steps: the judge's own points against
+/// the other organ's triangles.
+struct OrganPenetration
+{
+  std::string condition;
+  int sample = 0;
+  std::string organ_a, organ_b;
+  bool is_attached = false; ///< the registration holds the two together: they meet by design
+  double deepest = 0;       ///< mm, over the positions
+  int step_of_deepest = 0;  ///< 1-based; 0: never
+  double last = 0;          ///< mm, at the last step
+};
+
 /// Everything that the judge found. Rows are ordered by condition (unregistered, no_boundary_conditions, full, others
 /// by name), sample, organ (dataset::organ_names), step or slice.
 struct Evaluation
@@ -92,6 +105,8 @@ struct Evaluation
   std::vector<MissedSlice> missed_slices;
   std::vector<OrganMotion> motion; ///< dataset::organ_names in order
   std::vector<RunQuality> quality; ///< without unregistered
+  /// Pairs of dataset::organ_names in order; of unregistered the rest meshes' overlap.
+  std::vector<OrganPenetration> penetrations;
   /// Mean vaginal in-plane displacement of the last increment (DESIGN 4), mm: the judge's own cut of the truth's
   /// outer surface, and what the reference wrote.
   double vaginal_displacement = 0, reported_vaginal_displacement = 0;

@@ -48,6 +48,11 @@ registration::Model convert(const dataset::RegistrationModel &model)
                                      {attachment.nodes_a.begin(), attachment.nodes_a.end()},
                                      body_index(model, attachment.body_b),
                                      0.0});
+  // What the registration may know: organs do not run through each other, whichever two. Which of them touch, and when,
+  // is for it to find out.
+  for (std::size_t a = 0; a < organ_names.size(); ++a)
+    for (std::size_t b = a + 1; b < organ_names.size(); ++b)
+      converted.contact_pairs.push_back({body_index(model, organ_names[a]), body_index(model, organ_names[b])});
   return converted;
 }
 
@@ -64,7 +69,8 @@ registration::Observation convert(const dataset::DynamicFrame &frame, const data
   return observation;
 }
 
-dataset::StepRecord convert(const registration::StepSummary &summary)
+dataset::StepRecord convert(const registration::StepSummary &summary,
+                            const std::vector<registration::PairPenetration> &penetrations)
 {
   dataset::StepRecord record;
   record.status = summary.status == registration::StepStatus::ok ? "ok" : registration::to_string(summary.status);
@@ -76,6 +82,16 @@ dataset::StepRecord convert(const registration::StepSummary &summary)
   record.out_of_plane_force = summary.out_of_plane_force;
   record.in_plane_force = summary.in_plane_force;
   record.solver_sweeps = summary.sweeps;
+  record.contacts = summary.n_contacts;
+  record.contact_force = summary.contact_force;
+  record.contact_residual = summary.contact_motion_residual;
+  record.friction_cone_violation = summary.cone_violation;
+  record.open_rays = summary.n_open_rays;
+  for (const registration::PairPenetration &pair : penetrations)
+  {
+    record.penetration_depth.push_back(pair.depth);
+    record.penetration_volume.push_back(pair.volume);
+  }
   return record;
 }
 
@@ -84,6 +100,9 @@ registration::Options options_of(const std::string &condition, const dataset::An
   registration::Options options;
   options.time_step = anatomy.registration_time_step;
   options.use_attachments = condition != "no_boundary_conditions";
+  options.use_contact = condition != "no_boundary_conditions" && condition != "no_contact";
+  if (condition == "no_friction")
+    options.friction_coefficient = 0;
   return options;
 }
 
@@ -159,7 +178,7 @@ dataset::EstimateSample play(const Setup &setup, const registration::Model &mode
       const auto start = std::chrono::steady_clock::now();
       const registration::StepSummary summary = registration.update(observation);
       step_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-      run.steps.push_back(convert(summary));
+      run.steps.push_back(convert(summary, registration.penetrations()));
       for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
         run.surfaces[organ].positions.push_back(
             setup.organ_surfaces[organ].pick(registration.positions(setup.organ_bodies[organ])));
@@ -186,6 +205,11 @@ StepTiming timing_of(const std::string &condition, std::vector<double> step_ms)
 
 std::vector<std::string> condition_names()
 {
+  return {"full", "no_boundary_conditions", "no_contact", "no_friction"};
+}
+
+std::vector<std::string> default_conditions()
+{
   return {"full", "no_boundary_conditions"};
 }
 
@@ -199,6 +223,10 @@ dataset::Estimate run_registration(const dataset::Anatomy &anatomy, const datase
   dataset::Estimate estimate;
   estimate.case_name = anatomy.case_name;
   estimate.condition = condition;
+  if (setup.options.use_contact)
+    for (const registration::ContactPair &pair : setup.model.contact_pairs)
+      estimate.contact_pairs.emplace_back(setup.model.bodies[static_cast<std::size_t>(pair.body_a)].name,
+                                          setup.model.bodies[static_cast<std::size_t>(pair.body_b)].name);
   estimate.samples.resize(static_cast<std::size_t>(n_runs));
   std::vector<std::vector<double>> step_ms(static_cast<std::size_t>(n_runs));
   std::mutex progress_mutex;

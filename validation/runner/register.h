@@ -31,8 +31,12 @@ struct StepTiming
   double median_ms = 0, p95_ms = 0, max_ms = 0;
 };
 
-/// The conditions that run_registration knows: "full", "no_boundary_conditions".
+/// The conditions that run_registration knows: "full", "no_boundary_conditions" (image constraints alone), and
+/// ablations of full: "no_contact", "no_friction" (organs in contact slide freely).
 std::vector<std::string> condition_names();
+
+/// Those that are run when nobody asks for others: the two of the paper.
+std::vector<std::string> default_conditions();
 
 /// Register one condition: every one of the observed increments is played registration_steps_per_increment times
 /// (paper, section 6.2: 15 positions, 3 steps each). The organs' positions after each step and what the step says of

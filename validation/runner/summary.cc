@@ -106,6 +106,21 @@ json quality(const Evaluation &evaluation)
   return list;
 }
 
+json penetrations(const Evaluation &evaluation)
+{
+  json list = json::array();
+  for (const OrganPenetration &pair : evaluation.penetrations)
+    list.push_back({{"condition", pair.condition},
+                    {"sample", pair.sample},
+                    {"organ_a", pair.organ_a},
+                    {"organ_b", pair.organ_b},
+                    {"attached", pair.is_attached},
+                    {"deepest_mm", pair.deepest},
+                    {"step_of_deepest", pair.step_of_deepest},
+                    {"last_step_mm", pair.last}});
+  return list;
+}
+
 json missed(const Evaluation &evaluation)
 {
   json list = json::array();
@@ -143,6 +158,7 @@ std::string summary_json(const Evaluation &evaluation, const std::vector<StepTim
   summary["errors"] = errors(evaluation);
   summary["truth_motion"] = motion(evaluation);
   summary["runs"] = quality(evaluation);
+  summary["penetrations"] = penetrations(evaluation);
   summary["missed_slices"] = missed(evaluation);
   summary["timing"] = json::array();
   for (const StepTiming &timing : timings)

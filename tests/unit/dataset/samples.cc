@@ -177,14 +177,30 @@ Estimate sample_estimate()
   Estimate estimate;
   estimate.case_name = "sample";
   estimate.condition = "no_boundary_conditions";
+  estimate.contact_pairs = {{"bladder", "uterus"}, {"uterus", "rectum"}};
   for (const int sample : {0, 7})
   {
     EstimateSample entry;
     entry.sample = sample;
     for (const char *name : {"bladder", "uterus"})
       entry.surfaces.push_back({name, surface_from(1), {points_from(5, sample), points_from(5, sample + 1)}});
-    entry.steps = {{"ok", 70, 69, 0.1, 0.2, 1e-9, 1e-17, 0.05, 12},
-                   {"no control point in the image plane", 70 + sample, 0, 0.3, 0.4, 0, 0, 0, 0}};
+    entry.steps = {{"ok", 70, 69, 0.1, 0.2, 1e-9, 1e-17, 0.05, 12, 31, 4.5, 1e-7, 1e-12, 2, {0.3, 0}, {11.5, 0}},
+                   {"no control point in the image plane",
+                    70 + sample,
+                    0,
+                    0.3,
+                    0.4,
+                    0,
+                    0,
+                    0,
+                    0,
+                    0,
+                    0,
+                    0,
+                    0,
+                    0,
+                    {0.25, 0.125},
+                    {7, 3.5}}};
     estimate.samples.push_back(entry);
   }
   return estimate;

@@ -129,7 +129,7 @@ TEST(ConstraintSolver, ClosesIndependentRows)
   solver.add_compliance({0, 1}, (Eigen::Matrix2d() << 2, 0, 1, 3).finished());
   solver.set_row(0, 1, 0);
   solver.set_row(1, -2, 0.5);
-  ASSERT_TRUE(solver.solve(1e-12, 10));
+  ASSERT_TRUE(solver.solve({.tolerance_mm = 1e-12, .max_sweeps = 10}));
   const Eigen::Vector2d expected = (Eigen::Matrix2d() << 2, 1, 1, 3.5).finished().inverse() * Eigen::Vector2d(1, -2);
   EXPECT_LE((solver.multipliers() - expected).norm(), 1e-9); // the least compliance, 1e-10 of W
 }
@@ -142,7 +142,7 @@ TEST(ConstraintSolver, SharesTheGapAmongAntagonistRows)
   solver.set_row(0, 1, 0);
   solver.set_row(1, -1, 0);
   solver.set_row(2, 0.3, 0);
-  ASSERT_TRUE(solver.solve(1e-6, 50));
+  ASSERT_TRUE(solver.solve({.tolerance_mm = 1e-6, .max_sweeps = 50}));
   EXPECT_TRUE(solver.multipliers().allFinite());
   EXPECT_NEAR(solver.multipliers().sum(), 0.1,
               1e-5); // round-off of 1e10 N; the motion is the mean of the three demands
@@ -154,7 +154,7 @@ TEST(ConstraintSolver, ReportsASystemThatIsNotFinite)
   solver.reset(1);
   solver.add_compliance({0}, Eigen::MatrixXd::Constant(1, 1, std::nan("")));
   solver.set_row(0, 1, 0);
-  EXPECT_FALSE(solver.solve(1e-6, 5));
+  EXPECT_FALSE(solver.solve({.tolerance_mm = 1e-6, .max_sweeps = 5}));
 }
 
 TEST(BodyThreads, RunsEveryBodyOnce)

@@ -133,6 +133,25 @@ TEST(Evaluate, KeepsWhatTheRunsSayOfThemselves)
   EXPECT_DOUBLE_EQ(evaluation.quality[0].largest_mean_residual, 0.06) << "step 6, the last of its position";
 }
 
+TEST(Evaluate, MeasuresHowDeepOrgansReachIntoEachOther)
+{
+  // At step 5 and 6 of 6 the uterus (centre 200 mm up) has been lost onto the vagina, 29 mm above its centre.
+  dataset::Estimate estimate = test::sphere_estimate("full", translation, 1.0);
+  for (const int step : {4, 5})
+    estimate.samples[0].surfaces[2].positions[static_cast<std::size_t>(step)].col(2).array() -= 71;
+  dataset::Anatomy anatomy = test::sphere_anatomy();
+  anatomy.registration.attachments.push_back({"glue", "organ", "uterus", dataset::Integers(0), "rectum"});
+  const Evaluation evaluation = evaluate(anatomy, test::sphere_truth(translation), {estimate});
+  ASSERT_EQ(evaluation.penetrations.size(), 12u); // unregistered and full
+  const int last_step = test::n_increments * test::steps_per_increment;
+  for (const OrganPenetration &pair : evaluation.penetrations)
+  {
+    const bool is_lost = pair.condition == "full" && pair.organ_a == "vagina" && pair.organ_b == "uterus";
+    EXPECT_NEAR(pair.deepest, is_lost && last_step >= 6 ? 1 : 0, 0.2) << pair.organ_a << pair.organ_b;
+    EXPECT_EQ(pair.is_attached, pair.organ_a == "uterus" && pair.organ_b == "rectum");
+  }
+}
+
 TEST(Evaluate, GivesTheSameBytesForOneAndTwoThreadsAndAnyOrderOfEstimates)
 {
   const dataset::Estimate full = test::sphere_estimate("full", translation, 0.9);

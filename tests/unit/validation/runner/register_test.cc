@@ -188,6 +188,42 @@ TEST(RunRegistration, WithoutBoundaryConditionsTheSupportDoesNotHold)
   EXPECT_LT(corner_motion("full"), 0.8 * corner_motion("no_boundary_conditions"));
 }
 
+TEST(RunRegistration, KeepsOrgansApartUnlessTheConditionHasNoContact)
+{
+  // The uterus lies 0.1 mm above the vagina, and its outline goes down by 1 mm.
+  dataset::Anatomy anatomy = cube_anatomy();
+  anatomy.registration.bodies[2].points.col(2).array() -= 19.9;
+  dataset::Observations observations = cube_observations();
+  observations.frames[0].control_points[2].col(2).array() -= 20.9;
+  const auto run = [&](const std::string &condition) { return run_registration(anatomy, observations, condition, {}); };
+  const auto overlap = [](const dataset::Estimate &estimate)
+  {
+    const std::vector<dataset::EstimateSurface> &organs = estimate.samples[0].surfaces;
+    return organs[1].positions.back().col(2).maxCoeff() - organs[2].positions.back().col(2).minCoeff();
+  };
+  for (const std::string condition : {"full", "no_friction"})
+  {
+    const dataset::Estimate estimate = run(condition);
+    ASSERT_EQ(estimate.contact_pairs.size(), 6u);
+    EXPECT_EQ(estimate.contact_pairs[3], std::pair(std::string("vagina"), std::string("uterus")));
+    const dataset::StepRecord &last = estimate.samples[0].steps.back();
+    ASSERT_EQ(last.penetration_depth.size(), 6u);
+    EXPECT_GT(last.contacts, 0);
+    EXPECT_GT(last.contact_force, 0.1);
+    EXPECT_LE(last.penetration_depth[3], 0.3);
+    EXPECT_LE(overlap(estimate), 0.4);
+  }
+  for (const std::string condition : {"no_contact", "no_boundary_conditions"})
+  {
+    const dataset::Estimate estimate = run(condition);
+    EXPECT_TRUE(estimate.contact_pairs.empty());
+    EXPECT_EQ(estimate.samples[0].steps.back().contacts, 0);
+    EXPECT_GT(overlap(estimate), 0.6);
+  }
+  EXPECT_NE(run("full").samples[0].surfaces[1].positions.back(),
+            run("no_friction").samples[0].surfaces[1].positions.back());
+}
+
 TEST(RunRegistration, GivesTheSameBitsForOneAndTwoThreadsAndAnyNumberOfSamples)
 {
   const dataset::Estimate one = run_cubes("full", 3, 1), two = run_cubes("full", 3, 2), fewer = run_cubes("full", 1, 1);
@@ -246,7 +282,9 @@ TEST(RunRegistration, TimesTheNominalRunAndReportsProgress)
 
 TEST(RunRegistration, RefusesAnUnknownConditionAndNamesTheKnownOnes)
 {
-  expect_refusal(one_frame(), "no_gravity", {}, "'no_gravity' is unknown, allowed are: full, no_boundary_conditions");
+  expect_refusal(one_frame(), "no_gravity", {},
+                 "'no_gravity' is unknown, allowed are: full, no_boundary_conditions, no_contact, "
+                 "no_friction");
 }
 
 TEST(RunRegistration, RefusesOptionsOutOfRange)
