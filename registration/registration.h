@@ -195,11 +195,15 @@ struct PhaseTimes
   double contact = 0;   ///< detection, for the step's summary and the next step's rows
 };
 
-no_control_points, ///< no control point was offered or accepted, and the model has no point attachment in use:
-                   ///< nothing drives the step, positions unchanged
-    not_finite,    ///< NaN in the observation or the solution: positions unchanged
-    diverged,      ///< a node leaves the model's neighbourhood (its box, three times as large): positions unchanged
-    class Registration
+/// Size of the prepared system, over the bodies that take part.
+struct SystemSize
+{
+  int n_unknowns = 0;
+  long n_factor_values = 0; ///< doubles stored for the Cholesky factors, 8 bytes each
+};
+
+/// The registration. Not copyable; movable. In the steady state update() allocates nothing.
+class Registration
 {
 public:
   Registration();
@@ -215,13 +219,25 @@ public:
   /// never an exception; the positions keep the last valid state.
   StepSummary update(const Observation &observation);
 
-  no_control_points, ///< no control point was offered or accepted, and the model has no point attachment in use:
-                     ///< nothing drives the step, positions unchanged
-      not_finite,    ///< NaN in the observation or the solution: positions unchanged
-      diverged,      ///< a node leaves the model's neighbourhood (its box, three times as large): positions unchanged
+  /// Move the points of Model::point_attachments[attachment] for the next steps: n x 3, mm, as many as it has nodes.
+  /// Throws std::invalid_argument with one sentence for an unknown attachment, another number of points or a point that
+  /// is not finite.
+  void move_points(int attachment, const Points &points);
 
-      /// Current positions of a body (index into Model::bodies), n x 3, mm. A body that takes no part stays at rest.
-      const Points &positions(int body) const;
+  /// Static mode: steps on one image until nothing moves and forces balance. Steps keep their time step h, which does
+  /// not influence the equilibrium (paper, section 5.2) but for what friction holds on the way. Stops at a failed step,
+  /// whose status is in last_step. Throws std::invalid_argument for tolerances that are not positive.
+  Equilibrium settle(const Observation &observation, const EquilibriumTolerance &tolerance = {});
+
+  /// Overlap of every pair of Model::contact_pairs after the last step (after prepare(): at rest); empty when contact
+  /// is not used.
+  const std::vector<PairPenetration> &penetrations() const;
+
+  /// Unknowns and memory of the prepared model.
+  SystemSize system_size() const;
+
+  /// Current positions of a body (index into Model::bodies), n x 3, mm. A body that takes no part stays at rest.
+  const Points &positions(int body) const;
 
   /// Wall time of the last update().
   const PhaseTimes &phase_times() const;
