@@ -53,6 +53,9 @@ TEST(Registration, AllocatesNothingInTheSteadyState)
       attachment.nodes_a.push_back(node);
   }
   model.attachments.push_back(attachment);
+  model.bodies.push_back(scene::hollow_ellipsoid({20, 20, 15}, 3, 3, {0, 0, 35.2})); // the organ moves into it
+  model.bodies[2].name = "organ above";
+  model.contact_pairs.push_back({0, 2});
   Observation observation;
   observation.outlines.push_back(scene::outline(model.bodies[0], 0, model.bodies[0].rest_positions,
                                                 observation.plane_origin, observation.plane_normal));
@@ -62,6 +65,7 @@ TEST(Registration, AllocatesNothingInTheSteadyState)
   registration.prepare(model, {});
   for (int step = 0; step < 5; ++step) // the buffers grow
     ASSERT_EQ(registration.update(observation).status, StepStatus::ok);
+  ASSERT_GT(registration.penetrations()[0].n_contacts, 0);
   const long before = n_allocations;
   ASSERT_GT(before, 0);
   ASSERT_EQ(registration.update(observation).status, StepStatus::ok);
