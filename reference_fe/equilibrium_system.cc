@@ -136,7 +136,7 @@ void EquilibriumSystem::add_item(std::size_t term, int item, const LocalSystem &
   for (int i = 0; i < n; ++i)
     residual_[unknown[i]] += local.residual[i];
   term_energies_[term] += local.energy;
-  if (!with_tangent)
+  if (!with_tangent || local.tangent.size() == 0)
     return;
   const int *location = items_[term].locations(item);
   const double *entry = local.tangent.data();

@@ -182,27 +182,26 @@ void add_ties(const ReferenceModel &reference, const Parts &parts, PelvisModel &
   }
 }
 
-void add_contact(const ReferenceModel &reference, PelvisModel &model)
+/// Walls and peritoneal faces, up to their fixed edges.
+ContactFaces contact_faces(const Parts &parts, const std::string &part)
+{
+  ContactFaces contact{part, {}};
+  for (const SurfaceRegion region : {SurfaceRegion::wall, SurfaceRegion::peritoneal})
+    for (SurfaceFace &face : parts.outer_faces(part, region))
+      contact.faces.push_back(std::move(face));
+  return contact;
+}
+
+void add_contact(const ReferenceModel &reference, const Parts &parts, PelvisModel &model)
 {
   if (reference.contact_pairs.empty())
     return;
-  std::vector<ContactSurface> surfaces;
+  std::vector<ContactFaces> surfaces;
   std::map<std::string, int> index;
-  for (const OuterSurface &outer : model.surfaces)
+  for (const std::string &part : part_names(reference))
   {
-    ContactSurface surface{outer.part, outer.vertices, {}};
-    // Facets on a fixed edge stay out: a force on the face of a hinged node would only swing its director.
-    const auto is_fixed = [&](int v) { return model.system.is_fixed(outer.vertices[v].first_unknown); };
-    for (Eigen::Index t = 0; t < outer.triangles.rows(); ++t)
-    {
-      const std::array<int, 3> facet = {outer.triangles(t, 0), outer.triangles(t, 1), outer.triangles(t, 2)};
-      const bool may_touch = outer.region[t] == static_cast<std::int32_t>(SurfaceRegion::wall) ||
-                             outer.region[t] == static_cast<std::int32_t>(SurfaceRegion::peritoneal);
-      if (may_touch && std::none_of(facet.begin(), facet.end(), is_fixed))
-        surface.facets.push_back(facet);
-    }
-    index[outer.part] = static_cast<int>(surfaces.size());
-    surfaces.push_back(std::move(surface));
+    index[part] = static_cast<int>(surfaces.size());
+    surfaces.push_back(contact_faces(parts, part));
   }
   std::vector<std::pair<int, int>> pairs;
   for (const auto &[a, b] : reference.contact_pairs)
@@ -262,7 +261,7 @@ PelvisModel build_pelvis_model(const dataset::Anatomy &anatomy, int n_threads)
   add_elements(reference, parts, model);
   add_cavities(reference, parts, model);
   add_ties(reference, parts, model);
-  add_contact(reference, model);
+  add_contact(reference, parts, model);
   add_load(anatomy, parts, model);
   return model;
 }

@@ -15,7 +15,7 @@ struct LocalSystem
 {
   std::vector<int> unknowns; ///< global indices, n
   Eigen::VectorXd residual;  ///< n
-  Eigen::MatrixXd tangent;   ///< n x n
+  Eigen::MatrixXd tangent;   ///< n x n; empty when it is zero
   double energy = 0;         ///< N mm; 0 for a term that has none
   bool with_tangent = true;  ///< set by the assembler; when false, `tangent` is not read and need not be filled
 };

@@ -1,14 +1,14 @@
 #include "reference_fe/contact/penalty_contact.h"
 
 #include "reference_fe/contact/closest_point.h"
-#include "reference_fe/contact/facet_gap.h"
-#include "reference_fe/contact/facet_grid.h"
+#include "reference_fe/contact/contact_law.h"
+#include "reference_fe/contact/face_projection.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <tuple>
 #include <utility>
 
 namespace pelvireg::reference_fe
@@ -17,58 +17,13 @@ namespace
 {
 constexpr double ignored_depth = 1.5; ///< mm: deeper is another wall of a thin organ, not a penetration
 
-Eigen::Vector3d facet_normal(const Eigen::Matrix3Xd &x, const std::array<int, 3> &facet)
-{
-  return (x.col(facet[1]) - x.col(facet[0])).cross(x.col(facet[2]) - x.col(facet[0]));
-}
-
-Eigen::Matrix3Xd vertex_normals(const Eigen::Matrix3Xd &x, const std::vector<std::array<int, 3>> &facets)
-{
-  Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, x.cols());
-  for (const std::array<int, 3> &facet : facets)
-    for (const int v : facet)
-      normals.col(v) += facet_normal(x, facet);
-  return normals;
-}
-
-Eigen::Matrix3Xd rest_positions(const std::vector<SurfaceNode> &nodes)
-{
-  Eigen::Matrix3Xd x(3, nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    x.col(static_cast<Eigen::Index>(i)) = nodes[i].rest_position();
-  return x;
-}
-
-std::vector<double> vertex_areas(const ContactSurface &surface)
-{
-  const Eigen::Matrix3Xd x = rest_positions(surface.vertices);
-  std::vector<double> areas(surface.vertices.size(), 0);
-  for (const std::array<int, 3> &facet : surface.facets)
-    for (const int v : facet)
-      areas[v] += facet_normal(x, facet).norm() / 6;
-  return areas;
-}
-
-std::vector<std::array<bool, 3>> border_edges(const std::vector<std::array<int, 3>> &facets)
-{
-  std::map<std::pair<int, int>, int> count;
-  const auto edge = [](const std::array<int, 3> &facet, int k) { return std::minmax({facet[k], facet[(k + 1) % 3]}); };
-  for (const std::array<int, 3> &facet : facets)
-    for (int k = 0; k < 3; ++k)
-      ++count[edge(facet, k)];
-  std::vector<std::array<bool, 3>> border;
-  for (const std::array<int, 3> &facet : facets)
-    border.push_back({count[edge(facet, 0)] == 1, count[edge(facet, 1)] == 1, count[edge(facet, 2)] == 1});
-  return border;
-}
-
 double smooth_step(double t)
 {
   t = std::clamp(t, 0., 1.);
   return t * t * (3 - 2 * t);
 }
 
-/// How far a vertex counts as facing a facet, from 0 at 107 degrees between the outward normals to 1 at 127 degrees:
+/// How far a point counts as facing a facet, from 0 at 107 degrees between the outward normals to 1 at 127 degrees:
 /// where an edge rubs along a wall (the hiatus along the rectum), pairs come and go gently.
 double facing_weight(double cosine)
 {
@@ -85,182 +40,283 @@ double border_weight(const Eigen::Vector3d &barycentric, const std::array<bool, 
   return weight;
 }
 
+/// The facet that a point sees.
+struct SeenFacet
+{
+  int facet = -1;
+  double distance = 0, height = 0; ///< mm, from the triangle and from its plane
+  double weight = 0;
+  Eigen::Vector3d barycentric;
+};
+
+SeenFacet closest_facing_facet(const Eigen::Vector3d &point, const Eigen::Vector3d &own_normal,
+                               const ContactSurface &surface, const std::vector<Eigen::Matrix3Xd> &x,
+                               const std::vector<int> &candidates, double search_distance)
+{
+  SeenFacet best;
+  best.distance = search_distance;
+  for (const int f : candidates)
+  {
+    const ContactFacet &facet = surface.facets()[f];
+    const Eigen::Matrix3Xd &nodes = x[facet.face];
+    const Eigen::Vector3d a = nodes.col(facet.nodes[0]), b = nodes.col(facet.nodes[1]), c = nodes.col(facet.nodes[2]);
+    const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
+    const double facing = facing_weight(normal.dot(own_normal));
+    if (facing == 0)
+      continue;
+    const ClosestPoint found = closest_point(point, a, b, c);
+    const double height = normal.dot(point - a);
+    // On a shared edge or corner the distances are equal: the facet seen most squarely decides inside or outside.
+    const bool is_closer = found.distance < best.distance - 1e-9;
+    const bool is_squarer = found.distance < best.distance + 1e-9 && std::abs(height) > std::abs(best.height);
+    if (height >= -ignored_depth && (is_closer || is_squarer))
+      best = {f, found.distance, height, facing * border_weight(found.barycentric, facet.is_border),
+              found.barycentric};
+  }
+  return best;
+}
+
+Eigen::Vector2d reference_coordinates(const ContactFacet &facet, int n_nodes, const Eigen::Vector3d &barycentric)
+{
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  for (int k = 0; k < 3; ++k)
+    at += barycentric[k] * face_node_coordinates(n_nodes, facet.nodes[k]);
+  return at;
+}
 } // namespace
 
-ContactLaw contact_law(double gap, double onset)
-{
-  if (gap >= onset)
-    return {};
-  if (gap <= -onset)
-    return {0.5 * gap * gap + onset * onset / 6, gap, 1};
-  const double depth = onset - gap;
-  return {depth * depth * depth / (12 * onset), -depth * depth / (4 * onset), depth / (2 * onset)};
-}
-
-PenaltyContact::PenaltyContact(std::vector<ContactSurface> surfaces, const std::vector<std::pair<int, int>> &pairs,
+PenaltyContact::PenaltyContact(std::vector<ContactFaces> surfaces, const std::vector<std::pair<int, int>> &pairs,
                                const ContactOptions &options)
-    : surfaces_(std::move(surfaces)), options_(options)
+    : options_(options)
 {
-  for (const ContactSurface &surface : surfaces_)
-  {
-    vertex_areas_.push_back(vertex_areas(surface));
-    border_.push_back(border_edges(surface.facets));
-  }
+  for (ContactFaces &faces : surfaces)
+    surfaces_.emplace_back(std::move(faces));
   for (const auto &[a, b] : pairs)
-    for (const auto &[vertex_side, facet_side] : {std::pair{a, b}, std::pair{b, a}})
-      passes_.push_back({vertex_side, facet_side, std::vector<double>(surfaces_[vertex_side].vertices.size(), 0)});
+    for (const auto &[point_side, face_side] : {std::pair{a, b}, std::pair{b, a}})
+      passes_.push_back({point_side, face_side, std::vector<double>(surfaces_[point_side].points().size(), 0)});
 
-  std::vector<Eigen::Matrix3Xd> rest;
+  FacePositions rest;
   for (const ContactSurface &surface : surfaces_)
-    rest.push_back(rest_positions(surface.vertices));
+    rest.push_back(surface.rest_positions());
+  adopt(find_pairings(rest));
+  const std::vector<std::vector<double>> rest_gaps = gaps(rest);
   for (std::size_t p = 0; p < passes_.size(); ++p)
-  {
-    std::vector<Pair> at_rest;
-    find_pairs_of_pass(static_cast<int>(p), rest, at_rest);
-    for (const Pair &pair : at_rest)
-    {
-      Eigen::Matrix<double, 3, 4> x;
-      for (int k = 0; k < 4; ++k)
-        x.col(k) = pair.nodes[k].rest_position();
-      passes_[p].clearance[pair.vertex] = std::max(0., options_.onset - facet_gap(x).gap);
-    }
-  }
+    for (std::size_t i = 0; i < rest_gaps[p].size(); ++i)
+      passes_[p].clearance[i] = options_.onset - rest_gaps[p][i];
+  face_pairs_.clear();
 }
 
-void PenaltyContact::find_pairs_of_pass(int p, const std::vector<Eigen::Matrix3Xd> &x, std::vector<Pair> &pairs) const
+// --- search ---------------------------------------------------------------------------------------------------------
+
+std::vector<PenaltyContact::Pairing> PenaltyContact::find_pairings(const FacePositions &x) const
 {
-  const Pass &pass = passes_[p];
-  const ContactSurface &from = surfaces_[pass.vertex_side], &to = surfaces_[pass.facet_side];
-  const Eigen::Matrix3Xd &vertices = x[pass.vertex_side], &corners = x[pass.facet_side];
-  const Eigen::Matrix3Xd normals = vertex_normals(vertices, from.facets);
-  const FacetGrid grid(corners, to.facets, 2 * options_.search_distance);
+  std::vector<Pairing> pairings;
+  for (std::size_t p = 0; p < passes_.size(); ++p)
+    find_pairings_of_pass(static_cast<int>(p), x, pairings);
+  return pairings;
+}
+
+void PenaltyContact::find_pairings_of_pass(int pass, const FacePositions &x, std::vector<Pairing> &pairings) const
+{
+  const ContactSurface &own = surfaces_[passes_[pass].point_side], &other = surfaces_[passes_[pass].face_side];
+  const std::vector<Eigen::Matrix3Xd> &own_x = x[passes_[pass].point_side], &other_x = x[passes_[pass].face_side];
+  const FacetTree tree = other.tree(other_x);
   std::vector<int> candidates;
-  for (int v = 0; v < static_cast<int>(from.vertices.size()); ++v)
+  for (std::size_t i = 0; i < own.points().size(); ++i)
   {
-    if (vertex_areas_[pass.vertex_side][v] == 0)
+    const ContactPoint &at = own.points()[i];
+    const Eigen::Matrix3Xd &nodes = own_x[at.face];
+    const Eigen::Vector3d point = nodes * at.shape;
+    tree.candidates(point, options_.search_distance, candidates);
+    if (candidates.empty())
       continue;
-    const Eigen::Vector3d point = vertices.col(v), own_normal = normals.col(v).normalized();
-    grid.candidates(point, options_.search_distance, candidates);
-    double best_distance = options_.search_distance, best_height = 0;
-    int best = -1;
-    double best_weight = 0;
-    for (const int f : candidates)
-    {
-      const std::array<int, 3> &facet = to.facets[f];
-      const Eigen::Vector3d normal = facet_normal(corners, facet).normalized();
-      const double facing = facing_weight(normal.dot(own_normal));
-      if (facing == 0)
-        continue;
-      const ClosestPoint found =
-          closest_point(point, corners.col(facet[0]), corners.col(facet[1]), corners.col(facet[2]));
-      const double height = normal.dot(point - corners.col(facet[0]));
-      // On a shared edge or corner the distances are equal: the facet seen most squarely decides inside or outside.
-      const bool is_closer = found.distance < best_distance - 1e-9;
-      const bool is_squarer = found.distance < best_distance + 1e-9 && std::abs(height) > std::abs(best_height);
-      if (height < -ignored_depth || !(is_closer || is_squarer))
-        continue;
-      best_distance = found.distance;
-      best_height = height;
-      best = f;
-      best_weight = facing * border_weight(found.barycentric, border_[pass.facet_side][f]);
-    }
-    if (best < 0 || best_weight == 0)
+    const Eigen::Vector3d normal = Eigen::Vector3d(nodes * at.d_xi).cross(nodes * at.d_eta).normalized();
+    const SeenFacet seen =
+        closest_facing_facet(point, normal, other, other_x, candidates, options_.search_distance);
+    if (seen.facet < 0 || seen.weight == 0)
       continue;
-    const std::array<int, 3> &facet = to.facets[best];
-    pairs.push_back({p,
-                     v,
-                     best,
-                     {from.vertices[v], to.vertices[facet[0]], to.vertices[facet[1]], to.vertices[facet[2]]},
-                     pass.clearance[v],
-                     best_weight * vertex_areas_[pass.vertex_side][v]});
+    const ContactFacet &facet = other.facets()[seen.facet];
+    const int n_nodes = static_cast<int>(other_x[facet.face].cols());
+    pairings.push_back({pass, at.face, facet.face,
+                        {static_cast<int>(i), reference_coordinates(facet, n_nodes, seen.barycentric), seen.weight}});
   }
 }
 
-std::vector<PenaltyContact::Pair> PenaltyContact::find_pairs(const Eigen::VectorXd &solution) const
+bool PenaltyContact::adopt(std::vector<Pairing> pairings)
 {
-  std::vector<Eigen::Matrix3Xd> x;
-  for (const ContactSurface &surface : surfaces_)
-    x.push_back(positions(surface.vertices, solution));
-  std::vector<Pair> pairs;
-  for (std::size_t p = 0; p < passes_.size(); ++p)
-    find_pairs_of_pass(static_cast<int>(p), x, pairs);
-  return pairs;
-}
-
-double PenaltyContact::gap(const Pair &pair, const Eigen::VectorXd &solution) const
-{
-  return facet_gap(positions(pair.nodes, solution)).gap + pair.clearance;
+  const auto key = [](const auto &p) { return std::tuple(p.pass, p.own_face, p.other_face); };
+  std::stable_sort(pairings.begin(), pairings.end(),
+                   [&](const Pairing &a, const Pairing &b) { return key(a) < key(b); });
+  std::vector<FacePair> found;
+  for (const Pairing &pairing : pairings)
+  {
+    if (found.empty() || key(found.back()) != key(pairing))
+      found.push_back({pairing.pass, pairing.own_face, pairing.other_face, {}});
+    found.back().points.push_back(pairing.point);
+  }
+  // Face pairs that are known already keep their places, so that the sparsity pattern serves on.
+  for (FacePair &pair : face_pairs_)
+    pair.points.clear();
+  auto known = face_pairs_.begin();
+  for (FacePair &pair : found)
+  {
+    known = std::lower_bound(known, face_pairs_.end(), pair,
+                             [&](const FacePair &a, const FacePair &b) { return key(a) < key(b); });
+    if (known == face_pairs_.end() || key(*known) != key(pair))
+    {
+      face_pairs_ = std::move(found);
+      return true;
+    }
+    known->points = pair.points;
+  }
+  return false;
 }
 
 bool PenaltyContact::search(const Eigen::VectorXd &solution)
 {
-  std::map<std::pair<int, int>, std::array<double, 2>> gaps; // by pass and vertex: with the old and the new pairs
-  const auto note_gaps = [&](const std::vector<Pair> &pairs, int which)
-  {
-    for (const Pair &pair : pairs)
-      if (const double g = gap(pair, solution); g < options_.onset)
-        gaps.try_emplace({pair.pass, pair.vertex}, std::array{options_.onset, options_.onset}).first->second[which] = g;
-  };
-  std::vector<Pair> found = find_pairs(solution);
-  note_gaps(pairs_, 0);
-  note_gaps(found, 1);
-  const bool changed = std::any_of(gaps.begin(), gaps.end(),
-                                   [&](const auto &entry)
-                                   { return std::abs(entry.second[0] - entry.second[1]) > options_.settled_gap; });
-  const auto is_same = [](const Pair &a, const Pair &b)
-  { return a.pass == b.pass && a.vertex == b.vertex && a.facet == b.facet; };
-  if (!std::equal(found.begin(), found.end(), pairs_.begin(), pairs_.end(), is_same))
-    pairs_changed_ = true;
-  pairs_ = std::move(found);
-  return changed;
+  const FacePositions x = positions(solution);
+  const std::vector<std::vector<double>> before = gaps(x);
+  pattern_changed_ = adopt(find_pairings(x)) || pattern_changed_;
+  const std::vector<std::vector<double>> after = gaps(x);
+  for (std::size_t p = 0; p < passes_.size(); ++p)
+    for (std::size_t i = 0; i < before[p].size(); ++i)
+      if (!(std::abs(before[p][i] - after[p][i]) <= options_.settled_gap))
+        return true;
+  return false;
 }
 
 bool PenaltyContact::update(const Eigen::VectorXd &)
 {
-  return std::exchange(pairs_changed_, false);
+  return std::exchange(pattern_changed_, false);
+}
+
+// --- gaps -----------------------------------------------------------------------------------------------------------
+
+PenaltyContact::FacePositions PenaltyContact::positions(const Eigen::VectorXd &solution) const
+{
+  FacePositions x;
+  for (const ContactSurface &surface : surfaces_)
+    x.push_back(surface.positions(solution));
+  return x;
+}
+
+const ContactPoint &PenaltyContact::contact_point(const FacePair &pair, const PairedPoint &point) const
+{
+  return surfaces_[passes_[pair.pass].point_side].points()[point.point];
+}
+
+double PenaltyContact::gap(const FacePair &pair, const PairedPoint &point, const FacePositions &x) const
+{
+  const Pass &pass = passes_[pair.pass];
+  const Eigen::Vector3d at = x[pass.point_side][pair.own_face] * contact_point(pair, point).shape;
+  const FaceProjection projection = project(x[pass.face_side][pair.other_face], at, point.start);
+  return projection.converged ? projection.gap + pass.clearance[point.point] : options_.onset;
+}
+
+std::vector<std::vector<double>> PenaltyContact::gaps(const FacePositions &x) const
+{
+  std::vector<std::vector<double>> found;
+  for (const Pass &pass : passes_)
+    found.emplace_back(pass.clearance.size(), options_.onset);
+  for (const FacePair &pair : face_pairs_)
+    for (const PairedPoint &point : pair.points)
+      found[pair.pass][point.point] = std::min(options_.onset, gap(pair, point, x));
+  return found;
 }
 
 double PenaltyContact::deepest_penetration(const Eigen::VectorXd &solution) const
 {
+  const FacePositions x = positions(solution);
   double deepest = 0;
-  for (const Pair &pair : pairs_)
-  {
-    const double rest_overlap = std::max(0., pair.clearance - options_.onset);
-    deepest = std::max(deepest, pair.clearance - gap(pair, solution) - rest_overlap);
-  }
+  for (const FacePair &pair : face_pairs_)
+    for (const PairedPoint &point : pair.points)
+    {
+      const double clearance = passes_[pair.pass].clearance[point.point];
+      const double rest_overlap = std::max(0., clearance - options_.onset);
+      deepest = std::max(deepest, clearance - gap(pair, point, x) - rest_overlap);
+    }
   return deepest;
+}
+
+std::vector<ContactTraction> PenaltyContact::tractions(const Eigen::VectorXd &solution) const
+{
+  const FacePositions x = positions(solution);
+  std::vector<ContactTraction> found;
+  for (const FacePair &pair : face_pairs_)
+    for (const PairedPoint &point : pair.points)
+    {
+      const ContactPoint &at = contact_point(pair, point);
+      const Pass &pass = passes_[pair.pass];
+      const double g = gap(pair, point, x);
+      if (at.area == 0 || !(g < options_.onset))
+        continue;
+      const double clearance = pass.clearance[point.point];
+      found.push_back({surfaces_[pass.point_side].part(), surfaces_[pass.face_side].part(),
+                       x[pass.point_side][pair.own_face] * at.shape,
+                       -options_.penalty * point.weight * contact_law(g, options_.onset).d_energy, at.area,
+                       clearance - g - std::max(0., clearance - options_.onset)});
+    }
+  return found;
 }
 
 int PenaltyContact::n_in_contact(const Eigen::VectorXd &solution) const
 {
-  return static_cast<int>(std::count_if(pairs_.begin(), pairs_.end(),
-                                        [&](const Pair &pair) { return gap(pair, solution) < options_.onset; }));
+  return static_cast<int>(tractions(solution).size());
+}
+
+// --- term -----------------------------------------------------------------------------------------------------------
+
+std::vector<SurfaceNode> PenaltyContact::nodes(const FacePair &pair) const
+{
+  std::vector<SurfaceNode> both = surfaces_[passes_[pair.pass].point_side].faces()[pair.own_face].nodes;
+  const std::vector<SurfaceNode> &other = surfaces_[passes_[pair.pass].face_side].faces()[pair.other_face].nodes;
+  both.insert(both.end(), other.begin(), other.end());
+  return both;
 }
 
 void PenaltyContact::unknowns(int item, std::vector<int> &indices) const
 {
   indices.clear();
-  append_unknowns(pairs_[item].nodes, indices);
+  append_unknowns(nodes(face_pairs_[item]), indices);
 }
 
 void PenaltyContact::evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &local) const
 {
-  const Pair &pair = pairs_[item];
-  unknowns(item, local.unknowns);
-  const FacetGap found = facet_gap(positions(pair.nodes, solution));
-  const ContactLaw law = contact_law(found.gap + pair.clearance, options_.onset);
-  const double scale = 0.5 * options_.penalty * pair.area; // both passes together count once
-  local.energy = scale * law.energy;
-  if (law.d_energy == 0)
+  const FacePair &pair = face_pairs_[item];
+  const std::vector<SurfaceNode> both = nodes(pair);
+  const Eigen::Matrix3Xd x = reference_fe::positions(both, solution);
+  const auto n_own =
+      static_cast<Eigen::Index>(surfaces_[passes_[pair.pass].point_side].faces()[pair.own_face].nodes.size());
+  const Eigen::Matrix3Xd own = x.leftCols(n_own), other = x.rightCols(x.cols() - n_own);
+
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(x.size(), x.size());
+  local.energy = 0;
+  int n_acting = 0;
+  for (const PairedPoint &paired : pair.points)
   {
-    const Eigen::Index n = static_cast<Eigen::Index>(local.unknowns.size());
-    local.residual = Eigen::VectorXd::Zero(n);
-    local.tangent = Eigen::MatrixXd::Zero(n, n);
-    return;
+    const ContactPoint &point = contact_point(pair, paired);
+    if (point.area == 0)
+      continue;
+    const FaceProjection projection = project(other, own * point.shape, paired.start);
+    const double gap = projection.gap + passes_[pair.pass].clearance[paired.point];
+    if (!projection.converged || gap >= options_.onset)
+      continue;
+    ++n_acting;
+    const ContactLaw law = contact_law(gap, options_.onset);
+    const double scale = 0.5 * options_.penalty * paired.weight * point.area; // both passes together count once
+    const GapDerivatives d = gap_derivatives(projection, point.shape);
+    local.energy += scale * law.energy;
+    force += scale * law.d_energy * d.gradient;
+    if (!local.with_tangent)
+      continue;
+    stiffness.noalias() += (scale * law.d2_energy * d.gradient) * d.gradient.transpose();
+    stiffness.noalias() += (scale * law.d_energy * d.basis) * (d.coupling * d.basis.transpose());
   }
-  const Eigen::VectorXd force = scale * law.d_energy * found.gradient;
-  const Eigen::MatrixXd stiffness =
-      scale * (law.d2_energy * found.gradient * found.gradient.transpose() + law.d_energy * found.hessian);
-  to_unknowns(pair.nodes, solution, force, stiffness, 0, local);
+  unknowns(item, local.unknowns);
+  if (n_acting > 0)
+    return to_unknowns(both, solution, force, stiffness, 0, local);
+  local.residual.setZero(static_cast<Eigen::Index>(local.unknowns.size()));
+  local.tangent.resize(0, 0);
 }
 } // namespace pelvireg::reference_fe

@@ -1,7 +1,7 @@
 // Frictionless contact between outer surfaces.
 #pragma once
 
-#include "reference_fe/elements/surface_node.h"
+#include "reference_fe/contact/contact_surface.h"
 #include "reference_fe/term.h"
 
 #include <array>
@@ -11,81 +11,99 @@
 
 namespace pelvireg::reference_fe
 {
-/// A triangulated surface that may touch others; outward.
-struct ContactSurface
-{
-  std::string part;
-  std::vector<SurfaceNode> vertices;
-  std::vector<std::array<int, 3>> facets;
-};
-
 struct ContactOptions
 {
   double penalty = 0.5;         ///< MPa/mm, slope of the traction at depth
   double onset = 0.2;           ///< mm, gap at which the traction begins (smoothly)
-  double search_distance = 2.5; ///< mm, gap up to which a vertex is followed
+  double search_distance = 1.5; ///< mm, gap up to which a point is followed
   double settled_gap = 0.02;    ///< mm
 };
 
-/// Contact law: traction t(g)/penalty = (g0 - g)^2 / (4 g0) for |g| < g0, -g below, 0 above; energy and its derivatives
-/// per area and penalty. Traction and slope are continuous; the linear law is reached at depth g0.
-struct ContactLaw
+/// What contact does at one integration point.
+struct ContactTraction
 {
-  double energy = 0, d_energy = 0, d2_energy = 0;
+  std::string part, other;  ///< the part that the point belongs to, and what presses on it
+  Eigen::Vector3d position; ///< mm
+  double traction = 0;      ///< MPa, of the whole contact (half of it is integrated here)
+  double area = 0;          ///< mm^2 at rest
+  double penetration = 0;   ///< mm, beyond that at rest; negative: gap
 };
-ContactLaw contact_law(double gap, double onset);
 
-/// Penalty contact, vertices of one surface against facets of the other, both ways (half weight each).
+/// Penalty contact, surface to surface: the traction of contact_law() is integrated over the faces of either surface
+/// (half weight each) against the curved faces of the other.
 ///
-/// A vertex is paired with the closest facet that faces it; the pairing is frozen between calls of search(), so that
-/// Newton's method sees a smooth problem with an exact tangent: gap = distance from the facet's plane. The load stepper
-/// searches before a step and repeats the solution until the pairs in contact no longer change. Vertices beyond an
+/// A point is paired with the face that carries the closest facet facing it; the pairing is frozen between calls of
+/// search(), the projection onto that face is not: Newton's method sees a smooth problem with an exact tangent. The load
+/// stepper searches before a step and repeats the solution until the pairs in contact no longer change. Points beyond an
 /// open border of a surface are left alone. What is closer than `onset` at rest (the border of the cervix patch)
 /// keeps its rest clearance without traction.
 class PenaltyContact : public Term
 {
 public:
   /// @param pairs indices of surfaces that may touch.
-  PenaltyContact(std::vector<ContactSurface> surfaces, const std::vector<std::pair<int, int>> &pairs,
+  PenaltyContact(std::vector<ContactFaces> surfaces, const std::vector<std::pair<int, int>> &pairs,
                  const ContactOptions &options);
 
-  /// Pair vertices and facets at `solution`. True when the new pairs see another contact than the old ones: some vertex
+  /// Pair points and faces at `solution`. True when the new pairs see another contact than the old ones: some point
   /// has a gap (counted up to the onset) that differs by more than settled_gap.
   bool search(const Eigen::VectorXd &solution);
-  /// Deepest penetration of a vertex below the facet that it is paired with now, beyond that at rest, mm.
+  /// Deepest penetration of an integration point or node into the face that it is paired with now, beyond that at rest,
+  /// mm.
   double deepest_penetration(const Eigen::VectorXd &solution) const;
-  /// Number of pairs that transmit traction.
+  /// All integration points that transmit traction.
+  std::vector<ContactTraction> tractions(const Eigen::VectorXd &solution) const;
+  /// Number of integration points that transmit traction.
   int n_in_contact(const Eigen::VectorXd &solution) const;
 
   std::string name() const override { return "contact"; }
-  int n_items() const override { return static_cast<int>(pairs_.size()); }
+  int n_items() const override { return static_cast<int>(face_pairs_.size()); }
   bool update(const Eigen::VectorXd &solution) override;
   void unknowns(int item, std::vector<int> &indices) const override;
   void evaluate(int item, const Eigen::VectorXd &solution, LocalSystem &local) const override;
 
 private:
-  /// Vertices of surface `vertex_side` against facets of surface `facet_side`.
+  /// Points of surface `point_side` against faces of surface `face_side`.
   struct Pass
   {
-    int vertex_side = 0, facet_side = 0;
-    std::vector<double> clearance; ///< added to the gap of each vertex, mm: 0 but near the border of a tie
+    int point_side = 0, face_side = 0;
+    std::vector<double> clearance; ///< added to the gap of each point, mm: 0 but near the border of a tie
   };
-  struct Pair
+  struct PairedPoint
   {
-    int pass = 0, vertex = 0, facet = 0;
-    std::vector<SurfaceNode> nodes; ///< vertex, then the corners of the facet
-    double clearance = 0, area = 0;
+    int point = 0;
+    Eigen::Vector2d start;  ///< reference coordinates where the projection begins
+    double weight = 0;      ///< of its area, from 0 to 1: how much it faces the other surface
   };
-  std::vector<Pair> find_pairs(const Eigen::VectorXd &solution) const;
-  void find_pairs_of_pass(int pass, const std::vector<Eigen::Matrix3Xd> &x, std::vector<Pair> &pairs) const;
-  double gap(const Pair &pair, const Eigen::VectorXd &solution) const;
+  /// All points of one face that are paired with the same face of the other surface.
+  struct FacePair
+  {
+    int pass = 0, own_face = 0, other_face = 0;
+    std::vector<PairedPoint> points;
+  };
+  /// A point with its pairing.
+  struct Pairing
+  {
+    int pass = 0, own_face = 0, other_face = 0;
+    PairedPoint point;
+  };
+  using FacePositions = std::vector<std::vector<Eigen::Matrix3Xd>>; ///< of every surface and face
+
+  std::vector<Pairing> find_pairings(const FacePositions &x) const;
+  void find_pairings_of_pass(int pass, const FacePositions &x, std::vector<Pairing> &pairings) const;
+  /// Group by faces; true when that needs other face pairs than before.
+  bool adopt(std::vector<Pairing> pairings);
+  /// Gap of a point with its clearance, mm; the onset where the projection leaves the face.
+  double gap(const FacePair &pair, const PairedPoint &point, const FacePositions &x) const;
+  /// The gaps below the onset, of every pass and point; the onset for all others.
+  std::vector<std::vector<double>> gaps(const FacePositions &x) const;
+  FacePositions positions(const Eigen::VectorXd &solution) const;
+  std::vector<SurfaceNode> nodes(const FacePair &pair) const;
+  const ContactPoint &contact_point(const FacePair &pair, const PairedPoint &point) const;
 
   std::vector<ContactSurface> surfaces_;
-  std::vector<std::vector<double>> vertex_areas_;       ///< rest area that a vertex stands for, mm^2
-  std::vector<std::vector<std::array<bool, 3>>> border_; ///< of every facet: its edges (0 1), (1 2), (2 0) are open
   ContactOptions options_;
   std::vector<Pass> passes_;
-  std::vector<Pair> pairs_;
-  bool pairs_changed_ = false;
+  std::vector<FacePair> face_pairs_; ///< ascending; some may have no point now
+  bool pattern_changed_ = false;
 };
 } // namespace pelvireg::reference_fe

@@ -12,13 +12,12 @@ namespace
 {
 constexpr int n_node_unknowns = 7; // u, w, alpha
 
-ContactSurface contact_surface(const dataset::ReferenceShell &shell, int first_unknown)
+ContactFaces contact_faces(const dataset::ReferenceShell &shell, int first_unknown)
 {
-  const OuterSurface outer = outer_surface(shell, first_unknown);
-  ContactSurface surface{outer.part, outer.vertices, {}};
-  for (Eigen::Index t = 0; t < outer.triangles.rows(); ++t)
-    surface.facets.push_back({{outer.triangles(t, 0), outer.triangles(t, 1), outer.triangles(t, 2)}});
-  return surface;
+  ContactFaces contact{shell.name, {}};
+  for (Eigen::Index c = 0; c < shell.cells.rows(); ++c)
+    contact.faces.push_back(shell_face(shell, first_unknown, c, +1));
+  return contact;
 }
 
 /// Two spheres of outer radius 3.2, apart at rest, pressed 0.2 mm into each other and dented at random.
@@ -31,7 +30,7 @@ protected:
     n_lower = n_node_unknowns * static_cast<int>(lower.midsurface.rows());
     n_all = 2 * n_lower;
     contact = std::make_unique<PenaltyContact>(
-        std::vector<ContactSurface>{contact_surface(lower, 0), contact_surface(upper, n_lower)},
+        std::vector<ContactFaces>{contact_faces(lower, 0), contact_faces(upper, n_lower)},
         std::vector<std::pair<int, int>>{{0, 1}}, ContactOptions{});
     solution = 0.03 * scattered(n_all, 31);
     for (int i = n_lower; i < n_all; i += n_node_unknowns)
@@ -61,7 +60,8 @@ protected:
     {
       contact->evaluate(item, x, local);
       sum(local.unknowns) += local.residual;
-      change(local.unknowns) += local.tangent * direction(local.unknowns);
+      if (local.tangent.size() > 0)
+        change(local.unknowns) += local.tangent * direction(local.unknowns);
     }
     return sum;
   }
@@ -131,7 +131,7 @@ TEST_F(TwoSpheres, ForcesAndMomentsOfActionAndReactionCancel)
     moment[side] += (rest(node) + displacement(node)).cross(on_u) + director(node).cross(on_w);
   }
   EXPECT_GT(force[0].norm(), 0.05);
-  EXPECT_GT(moment[0].norm(), 0.01);
+  EXPECT_GT(moment[0].norm(), 1e-3);
   EXPECT_LT((force[0] + force[1]).norm(), 1e-14);
   EXPECT_LT((moment[0] + moment[1]).norm(), 1e-13);
   // The residual is the internal force: what the contact does to the lower sphere has the opposite sign, downwards.

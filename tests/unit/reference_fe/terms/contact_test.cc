@@ -1,5 +1,7 @@
 #include "reference_fe/contact/closest_point.h"
-#include "reference_fe/contact/facet_gap.h"
+#include "reference_fe/contact/contact_law.h"
+#include "reference_fe/contact/face_projection.h"
+#include "reference_fe/contact/facet_tree.h"
 #include "reference_fe/contact/penalty_contact.h"
 #include "tests/unit/reference_fe/terms/difference_quotients.h"
 
@@ -9,24 +11,28 @@ namespace pelvireg::reference_fe
 {
 namespace
 {
-/// A flat n x n patch of side 4 at height z; facing up or down.
-ContactSurface patch(int n, double z, bool up, int first_unknown)
+/// A flat patch of n x n faces, of side 4, at height z; facing up or down.
+ContactFaces patch(int n, double z, bool up, int first_unknown)
 {
-  ContactSurface surface;
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i)
+  const auto node = [&](int i, int j)
+  {
+    SurfaceNode made;
+    made.first_unknown = first_unknown + 3 * (j * (2 * n + 1) + i);
+    made.rest = {2. * i / n, 2. * j / n, z};
+    return made;
+  };
+  ContactFaces surface;
+  for (int j = 0; j < 2 * n; j += 2)
+    for (int i = 0; i < 2 * n; i += 2)
     {
-      SurfaceNode node;
-      node.first_unknown = first_unknown + 3 * static_cast<int>(surface.vertices.size());
-      node.rest = {4. * i / n, 4. * j / n, z};
-      surface.vertices.push_back(node);
-    }
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i)
-    {
-      const int a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-      surface.facets.push_back(up ? std::array{a, b, d} : std::array{a, d, b});
-      surface.facets.push_back(up ? std::array{a, d, c} : std::array{a, c, d});
+      std::vector<SurfaceNode> nodes;
+      for (int k = 0; k < 9; ++k)
+      {
+        const Eigen::Vector2d at = face_node_coordinates(9, k);
+        const int right = 1 + static_cast<int>(up ? at.x() : at.y()), back = 1 + static_cast<int>(up ? at.y() : at.x());
+        nodes.push_back(node(i + right, j + back));
+      }
+      surface.faces.push_back({nodes});
     }
   return surface;
 }
@@ -34,7 +40,7 @@ ContactSurface patch(int n, double z, bool up, int first_unknown)
 class TwoPatches : public ::testing::Test
 {
 protected:
-  static constexpr int n_lower = 3 * 25, n_all = n_lower + 3 * 16;
+  static constexpr int n_lower = 3 * 81, n_all = n_lower + 3 * 49;
   PenaltyContact contact{{patch(4, 0, true, 0), patch(3, 1, false, n_lower)}, {{0, 1}}, {}};
 
   /// The upper patch moved down so that `gap` is left.
@@ -67,27 +73,96 @@ TEST(ContactLaw, TractionAndSlopeAreContinuousAndDerivativesOfTheEnergy)
   }
 }
 
-TEST(FacetGap, GradientAndHessianAgreeWithDifferenceQuotientsAndActionEqualsReaction)
+/// A curved face of 9 or 6 nodes and a point beside it, on a small face of its own.
+struct CurvedFaces
 {
-  Eigen::Matrix<double, 3, 4> x;
-  x << 0.4, 0, 2, 0.3, 0.5, 0.1, 0, 1.7, 0.6, 0, 0.2, -0.1;
-  const FacetGap at = facet_gap(x);
-  const double step = 1e-5;
-  for (int i = 0; i < 12; ++i)
+  Eigen::Matrix3Xd own, other;
+  Eigen::VectorXd shape;
+
+  explicit CurvedFaces(int n) : own(3, 6), other(3, n), shape(surface_shapes(6, {0.2, 0.3}).col(0))
   {
-    Eigen::Matrix<double, 3, 4> plus = x, minus = x;
-    plus.data()[i] += step;
-    minus.data()[i] -= step;
-    const FacetGap up = facet_gap(plus), down = facet_gap(minus);
-    EXPECT_NEAR(at.gradient[i], (up.gap - down.gap) / (2 * step), 1e-9);
-    EXPECT_LT((at.hessian.col(i) - (up.gradient - down.gradient) / (2 * step)).cwiseAbs().maxCoeff(), 1e-8);
+    for (int k = 0; k < n; ++k)
+    {
+      const Eigen::Vector2d at = 3 * face_node_coordinates(n, k);
+      other.col(k) << at, 0.06 * at.squaredNorm() + 0.05 * at.x() * at.y();
+    }
+    other += 0.1 * Eigen::Map<const Eigen::Matrix3Xd>(scattered(3 * n, 5).eval().data(), 3, n);
+    for (int k = 0; k < 6; ++k)
+      own.col(k) << 1 + face_node_coordinates(6, k).x(), 0.6 + face_node_coordinates(6, k).y(), 0.5;
+    own += 0.1 * Eigen::Map<const Eigen::Matrix3Xd>(scattered(18, 6).eval().data(), 3, 6);
   }
-  const Eigen::Map<const Eigen::Matrix<double, 3, 4>> force(at.gradient.data());
-  EXPECT_LT(force.rowwise().sum().norm(), 1e-14);
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 4; ++k)
-    moment += Eigen::Vector3d(x.col(k)).cross(Eigen::Vector3d(force.col(k)));
-  EXPECT_LT(moment.norm(), 1e-14);
+  FaceProjection projection() const { return project(other, own * shape, {0.3, 0.3}); }
+  double &coordinate(int i) { return i < own.size() ? own.data()[i] : other.data()[i - own.size()]; }
+};
+
+class FaceGap : public ::testing::TestWithParam<int>
+{
+};
+
+TEST_P(FaceGap, GradientAndHessianAgreeWithDifferenceQuotientsAndActionEqualsReaction)
+{
+  CurvedFaces faces(GetParam());
+  const FaceProjection at = faces.projection();
+  ASSERT_TRUE(at.converged);
+  EXPECT_LT((at.tangents.transpose() * (faces.own * faces.shape - faces.other * at.shapes.col(0))).norm(), 1e-12);
+  const GapDerivatives d = gap_derivatives(at, faces.shape);
+  const Eigen::MatrixXd hessian = d.basis * d.coupling * d.basis.transpose();
+  const double step = 1e-5;
+  for (int i = 0; i < static_cast<int>(d.gradient.size()); ++i)
+  {
+    CurvedFaces plus = faces, minus = faces;
+    plus.coordinate(i) += step;
+    minus.coordinate(i) -= step;
+    const FaceProjection up = plus.projection(), down = minus.projection();
+    EXPECT_NEAR(d.gradient[i], (up.gap - down.gap) / (2 * step), 1e-9);
+    const Eigen::VectorXd quotient =
+        (gap_derivatives(up, faces.shape).gradient - gap_derivatives(down, faces.shape).gradient) / (2 * step);
+    EXPECT_LT((hessian.col(i) - quotient).cwiseAbs().maxCoeff(), 1e-8);
+  }
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+  for (int k = 0; k < static_cast<int>(d.gradient.size()) / 3; ++k)
+  {
+    const Eigen::Vector3d x = k < 6 ? faces.own.col(k) : faces.other.col(k - 6), f = d.gradient.segment<3>(3 * k);
+    force += f;
+    moment += x.cross(f);
+  }
+  EXPECT_LT(force.norm(), 1e-14);
+  EXPECT_LT(moment.norm(), 1e-13);
+}
+
+INSTANTIATE_TEST_SUITE_P(SquareAndTriangle, FaceGap, ::testing::Values(9, 6));
+
+TEST(FacetTree, FindsWhatASearchOfAllBoxesFinds)
+{
+  const int n = 200;
+  const Eigen::VectorXd at = 10 * scattered(9 * n, 7);
+  Eigen::Matrix3Xd points(3, 3 * n);
+  std::vector<std::array<int, 3>> facets;
+  for (int f = 0; f < n; ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+      points.col(3 * f + k) = at.segment<3>(9 * f) + 0.3 * at.segment<3>(9 * f + 3 * k);
+    facets.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+  }
+  const FacetTree tree(points, facets);
+  std::vector<int> found;
+  for (int q = 0; q < 20; ++q)
+  {
+    const Eigen::Vector3d point = at.segment<3>(3 * q) + Eigen::Vector3d(1, 0, 0);
+    std::vector<int> expected;
+    for (int f = 0; f < n; ++f)
+    {
+      Eigen::AlignedBox3d box;
+      for (int k = 0; k < 3; ++k)
+        box.extend(points.col(3 * f + k));
+      if (box.squaredExteriorDistance(point) <= 4)
+        expected.push_back(f);
+    }
+    tree.candidates(point, 2, found);
+    EXPECT_EQ(found, expected);
+  }
+  tree.candidates({1000, 0, 0}, 2, found);
+  EXPECT_TRUE(found.empty());
 }
 
 TEST(ClosestPoint, FindsInsideEdgeAndCorner)

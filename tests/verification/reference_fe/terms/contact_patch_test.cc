@@ -22,13 +22,12 @@ namespace
 const dataset::YeohMaterial material = {0.1, 0, 0, 40}; // kappa/mu = 200
 constexpr double width = 12, height = 6, rest_gap = 0.7, pressure = 0.02;
 
-ContactSurface contact_surface(const dataset::ReferenceSolid &solid, int first_unknown)
+ContactFaces contact_faces(const dataset::ReferenceSolid &solid, int first_unknown)
 {
-  const OuterSurface outer = outer_surface(solid, first_unknown);
-  ContactSurface surface{outer.part, outer.vertices, {}};
-  for (Eigen::Index t = 0; t < outer.triangles.rows(); ++t)
-    surface.facets.push_back({{outer.triangles(t, 0), outer.triangles(t, 1), outer.triangles(t, 2)}});
-  return surface;
+  ContactFaces contact{solid.name, {}};
+  for (Eigen::Index f = 0; f < solid.faces.rows(); ++f)
+    contact.faces.push_back(solid_face(solid, first_unknown, f));
+  return contact;
 }
 
 struct TwoBlocks
@@ -53,7 +52,7 @@ struct TwoBlocks
       if (lower.points(i, 2) < 1e-9)
         system.fix(3 * static_cast<int>(i) + 2);
     contact = std::make_shared<PenaltyContact>(
-        std::vector<ContactSurface>{contact_surface(lower, 0), contact_surface(upper, first_upper)},
+        std::vector<ContactFaces>{contact_faces(lower, 0), contact_faces(upper, first_upper)},
         std::vector<std::pair<int, int>>{{0, 1}}, options);
     system.add_term(contact);
     const int load = system.add_unknowns(1, {"load"});
