@@ -116,7 +116,7 @@ void TruthRecorder::record(const Eigen::VectorXd &solution, const StepEffort &ef
   increment.energy = std::accumulate(energies.begin(), energies.begin() + model_.n_strain_terms, 0.);
   increment.newton_iterations = effort.newton_iterations;
   increment.cuts = effort.cuts;
-  increment.max_penetration = model_.contact ? model_.contact->deepest_penetration(solution) : 0;
+  increment.max_penetration = model_.contact ? model_.contact->deepest_penetration(solution).depth : 0;
   const Eigen::Index n_cavities = static_cast<Eigen::Index>(model_.cavities.size());
   increment.cavity_volumes.resize(n_cavities);
   increment.cavity_pressures.resize(n_cavities);

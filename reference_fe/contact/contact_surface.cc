@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -19,28 +19,28 @@ struct RulePoint
   double weight = 0; ///< of the reference element
 };
 
-/// Two by two Gauss points on each quarter of the square: a gap that begins within a face is still integrated well.
+/// Simpson's rule on each quarter of the square: a gap that begins within a face is still integrated well, and an edge
+/// that bears on another surface has points of its own.
 std::vector<RulePoint> square_rule()
 {
-  const double near = 0.5 - 0.5 / std::sqrt(3.), far = 0.5 + 0.5 / std::sqrt(3.);
+  constexpr std::array<double, 5> at = {-1, -0.5, 0, 0.5, 1}, weight = {1. / 6, 2. / 3, 1. / 3, 2. / 3, 1. / 6};
   std::vector<RulePoint> rule;
-  for (const double x : {-far, -near, near, far})
-    for (const double y : {-far, -near, near, far})
-      rule.push_back({{x, y}, 0.25});
+  for (std::size_t i = 0; i < at.size(); ++i)
+    for (std::size_t j = 0; j < at.size(); ++j)
+      rule.push_back({{at[i], at[j]}, weight[i] * weight[j]});
   return rule;
 }
 
+/// Mid-points of the edges of each quarter of the triangle, and the nodes without weight.
 std::vector<RulePoint> triangle_rule()
 {
   std::vector<RulePoint> rule;
   for (const std::array<int, 3> &quarter : face_facets(6))
     for (int k = 0; k < 3; ++k)
-    {
-      Eigen::Vector2d at = Eigen::Vector2d::Zero();
-      for (int j = 0; j < 3; ++j)
-        at += (j == k ? 2. / 3 : 1. / 6) * face_node_coordinates(6, quarter[j]);
-      rule.push_back({at, 1. / 24});
-    }
+      rule.push_back({0.5 * (face_node_coordinates(6, quarter[k]) + face_node_coordinates(6, quarter[(k + 1) % 3])),
+                      1. / 24});
+  for (int node = 0; node < 6; ++node)
+    rule.push_back({face_node_coordinates(6, node), 0});
   return rule;
 }
 
@@ -80,16 +80,12 @@ void ContactSurface::add_points(int face)
 {
   const Eigen::Matrix3Xd rest = rest_of(faces_[face]);
   const int n = static_cast<int>(rest.cols());
-  const auto add = [&](const Eigen::Vector2d &at, double weight)
-  {
-    const FacePoint q = face_shape(n, at.x(), at.y());
-    const double area = weight * Eigen::Vector3d(rest * q.d_xi).cross(rest * q.d_eta).norm();
-    points_.push_back({face, q.value, q.d_xi, q.d_eta, area});
-  };
   for (const RulePoint &point : contact_rule(n))
-    add(point.at, point.weight);
-  for (int node = 0; node < n; ++node)
-    add(face_node_coordinates(n, node), 0);
+  {
+    const FacePoint q = face_shape(n, point.at.x(), point.at.y());
+    const double area = point.weight * Eigen::Vector3d(rest * q.d_xi).cross(rest * q.d_eta).norm();
+    points_.push_back({face, q.value, q.d_xi, q.d_eta, area});
+  }
 }
 
 void ContactSurface::mark_borders()

@@ -25,7 +25,7 @@ struct ContactPoint
   int face = 0;
   Eigen::VectorXd shape;         ///< N on its face
   Eigen::VectorXd d_xi, d_eta;   ///< derivatives
-  double area = 0;               ///< rest area that it stands for, mm^2; 0 at a node, where only the depth is looked at
+  double area = 0;               ///< rest area that it stands for, mm^2; 0: only the depth is looked at
 };
 
 /// A triangle between nodes of a face.
@@ -36,8 +36,8 @@ struct ContactFacet
   std::array<bool, 3> is_border{}; ///< edges (0 1), (1 2), (2 0) belong to no other facet
 };
 
-/// Faces with integration points (four Gauss points a quarter of a quadrilateral, three a quarter of a triangle) and, at
-/// the nodes, points without area.
+/// Faces with integration points: nine a quarter of a quadrilateral, three a quarter of a triangle, on the quarters'
+/// edges too.
 class ContactSurface
 {
 public:

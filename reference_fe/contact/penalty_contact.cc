@@ -224,16 +224,19 @@ std::vector<std::vector<double>> PenaltyContact::gaps(const FacePositions &x) co
   return found;
 }
 
-double PenaltyContact::deepest_penetration(const Eigen::VectorXd &solution) const
+ContactPenetration PenaltyContact::deepest_penetration(const Eigen::VectorXd &solution) const
 {
   const FacePositions x = positions(solution);
-  double deepest = 0;
+  ContactPenetration deepest;
   for (const FacePair &pair : face_pairs_)
     for (const PairedPoint &point : pair.points)
     {
-      const double clearance = passes_[pair.pass].clearance[point.point];
-      const double rest_overlap = std::max(0., clearance - options_.onset);
-      deepest = std::max(deepest, clearance - gap(pair, point, x) - rest_overlap);
+      const Pass &pass = passes_[pair.pass];
+      const double clearance = pass.clearance[point.point];
+      const double depth = clearance - gap(pair, point, x) - std::max(0., clearance - options_.onset);
+      if (point.weight >= 0.5 && depth > deepest.depth)
+        deepest = {depth, surfaces_[pass.point_side].part(), surfaces_[pass.face_side].part(),
+                   x[pass.point_side][pair.own_face] * contact_point(pair, point).shape};
     }
   return deepest;
 }
@@ -253,7 +256,7 @@ std::vector<ContactTraction> PenaltyContact::tractions(const Eigen::VectorXd &so
       const double clearance = pass.clearance[point.point];
       found.push_back({surfaces_[pass.point_side].part(), surfaces_[pass.face_side].part(),
                        x[pass.point_side][pair.own_face] * at.shape,
-                       -options_.penalty * point.weight * contact_law(g, options_.onset).d_energy, at.area,
+                       -options_.penalty * point.weight * contact_law(g, options_.onset, options_.stiffening).d_energy, at.area,
                        clearance - g - std::max(0., clearance - options_.onset)});
     }
   return found;
@@ -303,7 +306,7 @@ void PenaltyContact::evaluate(int item, const Eigen::VectorXd &solution, LocalSy
     if (!projection.converged || gap >= options_.onset)
       continue;
     ++n_acting;
-    const ContactLaw law = contact_law(gap, options_.onset);
+    const ContactLaw law = contact_law(gap, options_.onset, options_.stiffening);
     const double scale = 0.5 * options_.penalty * paired.weight * point.area; // both passes together count once
     const GapDerivatives d = gap_derivatives(projection, point.shape);
     local.energy += scale * law.energy;

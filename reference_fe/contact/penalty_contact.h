@@ -15,6 +15,7 @@ struct ContactOptions
 {
   double penalty = 0.5;         ///< MPa/mm, slope of the traction at depth
   double onset = 0.2;           ///< mm, gap at which the traction begins (smoothly)
+  double stiffening = 0;        ///< 1/mm, of the traction where surfaces penetrate
   double search_distance = 1.5; ///< mm, gap up to which a point is followed
   double settled_gap = 0.02;    ///< mm
 };
@@ -27,6 +28,14 @@ struct ContactTraction
   double traction = 0;      ///< MPa, of the whole contact (half of it is integrated here)
   double area = 0;          ///< mm^2 at rest
   double penetration = 0;   ///< mm, beyond that at rest; negative: gap
+};
+
+/// Where one part reaches deepest into another.
+struct ContactPenetration
+{
+  double depth = 0; ///< mm, beyond that at rest; 0 when nothing penetrates
+  std::string part, other;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< mm
 };
 
 /// Penalty contact, surface to surface: the traction of contact_law() is integrated over the faces of either surface
@@ -47,9 +56,9 @@ public:
   /// Pair points and faces at `solution`. True when the new pairs see another contact than the old ones: some point
   /// has a gap (counted up to the onset) that differs by more than settled_gap.
   bool search(const Eigen::VectorXd &solution);
-  /// Deepest penetration of an integration point or node into the face that it is paired with now, beyond that at rest,
-  /// mm.
-  double deepest_penetration(const Eigen::VectorXd &solution) const;
+  /// Deepest penetration of an integration point or node into the face that it is paired with now. Points with less than
+  /// half their traction are beside an open border or seen edge-on: they are not inside.
+  ContactPenetration deepest_penetration(const Eigen::VectorXd &solution) const;
   /// All integration points that transmit traction.
   std::vector<ContactTraction> tractions(const Eigen::VectorXd &solution) const;
   /// Number of integration points that transmit traction.

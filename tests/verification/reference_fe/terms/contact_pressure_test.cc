@@ -98,7 +98,7 @@ TEST(Contact, TransmitsAUniformPressureBetweenNonMatchingCurvedWalls)
   const double taken = sphere_area(inside.mean()) * wall_pressure(outer_radius, far_side.mean());
   EXPECT_NEAR(given / taken, 1, 2e-3);
 
-  // The law's gap at that pressure. Facets of 3.3 mm lie up to 0.06 mm within a sphere of radius 21 mm.
+  // The law's gap at that pressure.
   const double pressure = taken / sphere_area(inside.mean());
   const double gap = inside.mean() - outside.mean(), onset = spheres.options.onset;
   const double gap_by_law = onset - std::sqrt(4 * onset * pressure / spheres.options.penalty);
