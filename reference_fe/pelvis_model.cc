@@ -210,7 +210,7 @@ void add_contact(const ReferenceModel &reference, const Parts &parts, PelvisMode
   ContactOptions options;
   options.penalty = 0.8;
   options.onset = 0.6;
-  options.stiffening = 75; // 0.76 MPa at a depth of 0.1 mm
+  options.stiffening = 150; // 1.4 MPa at a depth of 0.1 mm
   model.contact = std::make_shared<PenaltyContact>(std::move(surfaces), pairs, options);
   model.system.add_term(model.contact);
 }

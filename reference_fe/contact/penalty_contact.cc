@@ -23,11 +23,12 @@ double smooth_step(double t)
   return t * t * (3 - 2 * t);
 }
 
-/// How far a point counts as facing a facet, from 0 at 107 degrees between the outward normals to 1 at 127 degrees:
-/// where an edge rubs along a wall (the hiatus along the rectum), pairs come and go gently.
+/// How far a point counts as facing a facet, from 0 at 90 degrees between the outward normals to 1 at 107 degrees: where
+/// an edge rubs along a wall (the hiatus along the rectum) or a wall bends over an edge (the rectum over the floor's
+/// coccygeal end), pairs come and go gently.
 double facing_weight(double cosine)
 {
-  return smooth_step((-cosine - 0.3) / 0.3);
+  return smooth_step(-cosine / 0.3);
 }
 
 /// Falls from 1 to 0 over the last third of a facet towards an open border.
