@@ -181,6 +181,10 @@ void DeckMesh::add_bars(const dataset::ReferenceModel &reference)
   };
   for (const dataset::ReferenceTruss &truss : reference.trusses)
   {
+    if (truss.tension_only)
+      throw InputError(fmt::format("truss group '{}' is slack in compression, which the deck's bars are not; export a "
+                                   "case without tension_only",
+                                   truss.group));
     DeckBar bar{truss.group, truss.material, truss.area, 0, 0};
     bar.node_a = bar_end(middle_point(truss.part_a, truss.node_a), rest(truss.part_a, truss.node_a));
     if (truss.part_b.empty())
