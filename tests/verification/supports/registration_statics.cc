@@ -41,10 +41,20 @@ Eigen::MatrixXd stiffness(BodySolver &solver)
   solver.assemble();
   const registration::SymmetricBlockMatrix &matrix = solver.matrix();
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(matrix.n_rows(), matrix.n_rows());
-  for (int column = 0; column < matrix.n_rows(); ++column)
-    for (int i = matrix.column_starts()[column]; i < matrix.column_starts()[column + 1]; ++i)
-      if (const int row = matrix.row_indices()[i]; row >= column)
-        dense(row, column) = dense(column, row) = matrix.values()[i];
+  for (int column = 0; column < matrix.n_blocks(); ++column)
+    for (int k = matrix.block_starts()[column]; k < matrix.block_starts()[column + 1]; ++k)
+    {
+      const int row = matrix.block_rows()[k];
+      const Eigen::Map<const Eigen::Matrix3d> block(matrix.values() +
+                                                    registration::SymmetricBlockMatrix::block_size * k);
+      if (row == column)
+        dense.block<3, 3>(3 * row, 3 * row) = block.selfadjointView<Eigen::Lower>();
+      else
+      {
+        dense.block<3, 3>(3 * row, 3 * column) = block;
+        dense.block<3, 3>(3 * column, 3 * row) = block.transpose();
+      }
+    }
   return dense;
 }
 
