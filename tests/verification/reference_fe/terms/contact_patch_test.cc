@@ -22,11 +22,13 @@ namespace
 const dataset::YeohMaterial material = {0.1, 0, 0, 40}; // kappa/mu = 200
 constexpr double width = 12, height = 6, rest_gap = 0.7, pressure = 0.02;
 
-ContactFaces contact_faces(const dataset::ReferenceSolid &solid, int first_unknown)
+/// The faces at height z at rest. Both blocks end at the same edges, so contact goes up to them.
+ContactFaces contact_faces(const dataset::ReferenceSolid &solid, int first_unknown, double z)
 {
-  ContactFaces contact{solid.name, {}};
+  ContactFaces contact{solid.name, {}, false};
   for (Eigen::Index f = 0; f < solid.faces.rows(); ++f)
-    contact.faces.push_back(solid_face(solid, first_unknown, f));
+    if (((solid.points(solid.faces.row(f).transpose().head<3>().eval(), 2).array() - z).abs() < 1e-9).all())
+      contact.faces.push_back(solid_face(solid, first_unknown, f));
   return contact;
 }
 
@@ -52,7 +54,8 @@ struct TwoBlocks
       if (lower.points(i, 2) < 1e-9)
         system.fix(3 * static_cast<int>(i) + 2);
     contact = std::make_shared<PenaltyContact>(
-        std::vector<ContactFaces>{contact_faces(lower, 0), contact_faces(upper, first_upper)},
+        std::vector<ContactFaces>{contact_faces(lower, 0, height),
+                                  contact_faces(upper, first_upper, height + rest_gap)},
         std::vector<std::pair<int, int>>{{0, 1}}, options);
     system.add_term(contact);
     const int load = system.add_unknowns(1, {"load"});
