@@ -28,6 +28,11 @@ double largest_magnitude(const double *values, int n)
 }
 } // namespace
 
+ConstraintSolver::ConstraintSolver()
+{
+  openblas_set_num_threads(1);
+}
+
 void ConstraintSolver::reset(int n_rows, int n_bilateral, int rows_per_contact, double friction_coefficient)
 {
   n_rows_ = n_rows;

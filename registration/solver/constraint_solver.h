@@ -18,6 +18,10 @@ class ConstraintSolver
 public:
   static constexpr double least_relative_compliance = 1e-10;
 
+  /// Holds OpenBLAS to one thread, for the whole process: its teams allocate at every call, and sums that depend on their
+  /// size would not be the same for every number of threads.
+  ConstraintSolver();
+
   /// Start a step with n rows: W = 0. The rows from `n_bilateral` on are contacts of `rows_per_contact` (1, or 3 with
   /// friction) rows each.
   void reset(int n_rows, int n_bilateral, int rows_per_contact = 1, double friction_coefficient = 0);
