@@ -3,9 +3,9 @@
 // instruction set must not be picked by the linker for all.
 
 using Vector = double __attribute__((vector_size(lanes * sizeof(double)), may_alias));
-constexpr int parts = width / lanes;              // registers for a group of rows
-constexpr int most_groups = lanes == 8 ? 3 : 1;   // of rows in a tile of products
-constexpr int most_columns = lanes >= 4 ? 6 : 3;  // in a tile of products
+constexpr int parts = width / lanes;               // registers for a group of rows
+constexpr int most_groups = lanes == 8 ? 3 : 1;    // of rows in a tile of products
+constexpr int most_columns = lanes >= 4 ? 6 : 3;   // in a tile of products
 constexpr int square_columns = lanes == 8 ? 8 : 4; // in a tile of W
 
 inline Vector load(const double *p)
@@ -238,8 +238,7 @@ inline void solve_lower(const SupernodeColumns &node, double *own, double *x, do
 }
 
 /// own <- own - below^T x for `columns` columns from p.
-template <int columns>
-inline void subtract_products(const SupernodeColumns &node, int p, const double *x, double *own)
+template <int columns> inline void subtract_products(const SupernodeColumns &node, int p, const double *x, double *own)
 {
   const long stride = node.stride();
   const double *below = node.below() + p * stride;

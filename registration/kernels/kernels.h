@@ -34,8 +34,8 @@ struct SupernodeColumns
   double *below() const { return values + padded(n_columns); }
 };
 
-/// Right-hand sides in groups of `width` constraint rows: entry of unknown u and lane l is values[group][u * width + l],
-/// aligned.
+/// Right-hand sides in groups of `width` constraint rows: entry of unknown u and lane l is values[group][u * width +
+/// l], aligned.
 struct RightSides
 {
   double *const *values = nullptr;
@@ -74,8 +74,8 @@ struct Kernels
   /// target(run targets - shift) += update(runs), for the columns of runs first_run ... last_run - 1.
   void (*extend_add)(const double *update, int update_stride, const Run *runs, int first_run, int last_run, int n_runs,
                      double *target, int target_stride, int shift);
-  /// x <- L^-1 x for one supernode: its own entries, then what they take from the rows below. `scratch`: padded(n_below)
-  /// doubles, aligned.
+  /// x <- L^-1 x for one supernode: its own entries, then what they take from the rows below. `scratch`:
+  /// padded(n_below) doubles, aligned.
   void (*solve_lower)(const SupernodeColumns &columns, double *own, double *x, double *scratch);
   /// x <- L^-T x for one supernode.
   void (*solve_upper)(const SupernodeColumns &columns, double *own, const double *x, double *scratch);

@@ -1,5 +1,5 @@
-// Eight corotational linear tetrahedra at a time, of one instruction set; see dense_body.h. What an element is, and why,
-// stands in registration/elements/tetrahedron.h.
+// Eight corotational linear tetrahedra at a time, of one instruction set; see dense_body.h. What an element is, and
+// why, stands in registration/elements/tetrahedron.h.
 
 inline Vector dot(const Vector *a, const Vector *b)
 {

@@ -138,7 +138,8 @@ bool BodySolver::correct(const Eigen::VectorXd &multipliers)
     return true;
   correction_ = reduced_load_;
   if (rows_.size() > 0)
-    compliance_.add_combination(*factor_, [&](int k) { return multipliers[touching_rows_[k]]; }, correction_);
+    compliance_.add_combination(
+        *factor_, [&](int k) { return multipliers[touching_rows_[k]]; }, correction_);
   factor_->solve_upper(correction_.data());
   for (Eigen::Index node = 0; node < corrected_.rows(); ++node)
     if (first_unknown_[node] >= 0)

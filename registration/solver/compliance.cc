@@ -39,8 +39,9 @@ void Compliance::group_rows(const SupernodalFactor &factor, const SparseRows &ro
   place_.resize(n_rows);
   std::iota(order_.begin(), order_.end(), 0);
   std::sort(order_.begin(), order_.end(),
-            [this](int a, int b)
-            { return first_supernode_[a] < first_supernode_[b] || (first_supernode_[a] == first_supernode_[b] && a < b); });
+            [this](int a, int b) {
+              return first_supernode_[a] < first_supernode_[b] || (first_supernode_[a] == first_supernode_[b] && a < b);
+            });
   for (int place = 0; place < n_rows; ++place)
     place_[order_[place]] = place;
 }

@@ -60,8 +60,8 @@ private:
 
   Eigen::MatrixXd result_;
   int n_groups_ = 0;
-  std::vector<int> first_supernode_; ///< of each row
-  std::vector<int> order_, place_;   ///< order_[place] = row; place = group * width + lane
+  std::vector<int> first_supernode_;         ///< of each row
+  std::vector<int> order_, place_;           ///< order_[place] = row; place = group * width + lane
   std::vector<std::vector<int>> reached_by_; ///< groups that reach each supernode, ascending
   std::vector<int> last_group_seen_;
   std::vector<double *> group_values_;

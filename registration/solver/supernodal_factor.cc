@@ -118,9 +118,9 @@ void SupernodalFactor::place_blocks(const SymmetricBlockMatrix &matrix)
       const int row = 3 * matrix.block_rows()[k];
       const bool is_below = row >= front.first_column + front.n_columns;
       const int *place = is_below ? std::lower_bound(columns.rows, columns.rows + front.n_below, row) : nullptr;
-      block_places_[k] = (3 * column - front.first_column) * columns.stride() +
-                         (is_below ? padded(front.n_columns) + static_cast<int>(place - columns.rows)
-                                   : row - front.first_column);
+      block_places_[k] =
+          (3 * column - front.first_column) * columns.stride() +
+          (is_below ? padded(front.n_columns) + static_cast<int>(place - columns.rows) : row - front.first_column);
     }
   }
 }
@@ -156,11 +156,10 @@ bool SupernodalFactor::factorise(const SymmetricBlockMatrix &matrix)
       {
         const Front &child = fronts_[children_[c]];
         const int split = child.split - child.first_run, n_runs = child.last_run - child.first_run;
-        kernels_->extend_add(update_of(child), padded(child.n_below), runs_.data() + child.first_run,
-                             to_columns ? 0 : split, to_columns ? split : n_runs, n_runs,
-                             to_columns ? columns.values : update_of(front),
-                             to_columns ? columns.stride() : padded(front.n_below),
-                             to_columns ? 0 : padded(front.n_columns));
+        kernels_->extend_add(
+            update_of(child), padded(child.n_below), runs_.data() + child.first_run, to_columns ? 0 : split,
+            to_columns ? split : n_runs, n_runs, to_columns ? columns.values : update_of(front),
+            to_columns ? columns.stride() : padded(front.n_below), to_columns ? 0 : padded(front.n_columns));
       }
     };
     gather(matrix, front);

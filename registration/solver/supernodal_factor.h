@@ -19,8 +19,7 @@ class SupernodalFactor
 {
 public:
   /// The matrix must already be in a fill-reducing, postordered order.
-  explicit SupernodalFactor(const SymmetricBlockMatrix &matrix,
-                            const kernels::Kernels &kernels = kernels::best());
+  explicit SupernodalFactor(const SymmetricBlockMatrix &matrix, const kernels::Kernels &kernels = kernels::best());
 
   /// Numeric phase. False when the matrix is not positive definite to round-off or not finite; solve nothing then.
   /// The matrix must have the pattern of the constructor's.

@@ -106,9 +106,8 @@ SupernodeTree analyse(const SymmetricBlockMatrix &matrix)
     tree.below_starts.push_back(static_cast<int>(tree.below_rows.size()));
   }
   for (int s = 0; s < n; ++s)
-    tree.parent.push_back(tree.below_starts[s] == tree.below_starts[s + 1]
-                              ? -1
-                              : supernode_of[tree.below_rows[tree.below_starts[s]]]);
+    tree.parent.push_back(
+        tree.below_starts[s] == tree.below_starts[s + 1] ? -1 : supernode_of[tree.below_rows[tree.below_starts[s]]]);
   return tree;
 }
 } // namespace pelvireg::registration

@@ -7,8 +7,8 @@
 
 namespace pelvireg::registration
 {
-/// Order of the blocks that keeps the factor sparse: result[k] is the block eliminated k-th (the better of CHOLMOD's AMD
-/// and nested dissection, postordered). `cliques` as in SymmetricBlockMatrix.
+/// Order of the blocks that keeps the factor sparse: result[k] is the block eliminated k-th (the better of CHOLMOD's
+/// AMD and nested dissection, postordered). `cliques` as in SymmetricBlockMatrix.
 std::vector<int> fill_reducing_order(int n_blocks, const std::vector<std::vector<int>> &cliques);
 
 /// Supernode s: consecutive block columns first_block[s] … first_block[s + 1] - 1 of L with the same rows below them,
@@ -23,6 +23,7 @@ struct SupernodeTree
   int size() const { return static_cast<int>(parent.size()); }
 };
 
-/// The matrix must already be in a fill-reducing, postordered order. Throws std::runtime_error when memory is exhausted.
+/// The matrix must already be in a fill-reducing, postordered order. Throws std::runtime_error when memory is
+/// exhausted.
 SupernodeTree analyse(const SymmetricBlockMatrix &matrix);
 } // namespace pelvireg::registration

@@ -16,7 +16,8 @@ std::array<int, Tetrahedron::n_nodes> sorted_nodes(const Tets &tets, Eigen::Inde
 {
   std::array<int, Tetrahedron::n_nodes> order{0, 1, 2, 3};
   std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return std::pair(first_unknown[tets(cell, a)], a) < std::pair(first_unknown[tets(cell, b)], b); });
+            [&](int a, int b)
+            { return std::pair(first_unknown[tets(cell, a)], a) < std::pair(first_unknown[tets(cell, b)], b); });
   return order;
 }
 
@@ -60,7 +61,8 @@ TetrahedronAssembly::TetrahedronAssembly(const Body &body, const std::vector<int
       for (int axis = 0; axis < 3; ++axis)
         group.gradients[3 * a + axis][lane] = element.gradients()(axis, order[a]);
       for (int b = 0; b <= a; ++b, ++pair)
-        target.blocks[pair] = target.unknowns[b] >= 0 ? matrix.find(target.unknowns[a] / 3, target.unknowns[b] / 3) : -1;
+        target.blocks[pair] =
+            target.unknowns[b] >= 0 ? matrix.find(target.unknowns[a] / 3, target.unknowns[b] / 3) : -1;
     }
   }
 }

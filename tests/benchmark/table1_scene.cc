@@ -22,18 +22,17 @@ struct Ellipsoid
   Eigen::Vector3d centre, half_axes;
 };
 
-constexpr double wall = 3; // mm
-const std::array<Ellipsoid, 4> organs = {{{{0, 34, 40}, {17, 10, 38}},   // vagina
-                                          {{0, 40, 96}, {24, 22, 21}},   // uterus
-                                          {{0, 0, 62}, {33, 26.5, 27}},  // bladder
-                                          {{0, 62.5, 56}, {20, 19, 52}}}}; // rectum
-constexpr std::array<const char *, 7> names = {"vagina", "uterus", "bladder", "rectum", "fascia pelvis", "fascia sacrum",
-                                               "ligaments"};
+constexpr double wall = 3;                                                 // mm
+const std::array<Ellipsoid, 4> organs = {{{{0, 34, 40}, {17, 10, 38}},     // vagina
+                                          {{0, 40, 96}, {24, 22, 21}},     // uterus
+                                          {{0, 0, 62}, {33, 26.5, 27}},    // bladder
+                                          {{0, 62.3, 46}, {20, 19, 40}}}}; // rectum
+constexpr std::array<const char *, 7> names = {"vagina",        "uterus",        "bladder",  "rectum",
+                                               "fascia pelvis", "fascia sacrum", "ligaments"};
 constexpr std::array<double, 7> moduli = {0.66, 0.6, 0.24, 0.54, 0.03, 0.03, 0.78}; // MPa, Table 1
 
 /// The grid na x nb, na between `least` and `most` times nb, for which n(na, nb) is nearest to `wanted`.
-template <class Number>
-std::pair<int, int> nearest_grid(double wanted, double least, double most, const Number &n)
+template <class Number> std::pair<int, int> nearest_grid(double wanted, double least, double most, const Number &n)
 {
   std::pair<int, int> best;
   double least_error = std::numeric_limits<double>::infinity();
@@ -86,8 +85,8 @@ Body hollow_organ(const Ellipsoid &shape, double n_nodes)
   body.rest_positions.resize(2 * n, 3);
   for (int i = 0; i < n; ++i)
   {
-    const double height = i >= n - 2 ? (i == n - 2 ? -1.0 : 1.0)
-                                     : -std::cos(std::numbers::pi * (i / n_segments + 1) / (n_rings + 1));
+    const double height =
+        i >= n - 2 ? (i == n - 2 ? -1.0 : 1.0) : -std::cos(std::numbers::pi * (i / n_segments + 1) / (n_rings + 1));
     const double angle = 2 * std::numbers::pi * (i % n_segments) / n_segments;
     const double radius = std::sqrt(1 - height * height);
     const Eigen::Vector3d direction(radius * std::cos(angle), radius * std::sin(angle), height);
@@ -220,8 +219,7 @@ Body ligaments(double n_nodes)
     const Eigen::Vector3d across = along.cross(Eigen::Vector3d::UnitZ()).normalized();
     const int before = static_cast<int>(body.rest_positions.rows());
     add_grid(body, cells, {n_along, n_across, n_across},
-             [&](const Eigen::Vector3d &at) -> Eigen::Vector3d
-             {
+             [&](const Eigen::Vector3d &at) -> Eigen::Vector3d {
                return starts[band] + at[0] * along - 4 * (at[1] - 0.5) * across +
                       4 * (at[2] - 0.5) * Eigen::Vector3d::UnitZ();
              });
@@ -288,6 +286,21 @@ std::vector<Observation> play()
   }
   return observations;
 }
+/// The lower ends of vagina, bladder and rectum are held, as in the pelvis: they would turn out of the image otherwise.
+void hold_lower_end(Body &body)
+{
+  const double bottom = body.rest_positions.col(2).minCoeff(), top = body.rest_positions.col(2).maxCoeff();
+  for (int node = 0; node < body.rest_positions.rows(); ++node)
+    if (body.rest_positions(node, 2) < bottom + 0.02 * (top - bottom))
+      body.fixed_nodes.push_back(node);
+}
+
+/// Neighbouring organs may touch, in a registration that knows contact.
+template <class AnyModel> void add_contact_pairs(AnyModel &model)
+{
+  if constexpr (requires { model.contact_pairs; })
+    model.contact_pairs = {{0, 2}, {0, 3}, {1, 2}, {1, 3}};
+}
 } // namespace
 
 Counts table1_counts(const std::string &data_set)
@@ -315,11 +328,14 @@ Scene table1_scene(const Counts &counts, double scale)
     bodies[k].name = names[k];
     bodies[k].youngs_modulus = moduli[k];
   }
+  for (const int organ : {0, 2, 3})
+    hold_lower_end(bodies[organ]);
   scene.model.attachments = {{"uterus on vagina", 1, nearest_nodes(bodies[1], organs[0], 8), 0, 0},
                              {"fascia pelvis on bladder", 4, nearest_nodes(bodies[4], organs[2], 8), 2, 0},
                              {"fascia sacrum on rectum", 5, nearest_nodes(bodies[5], organs[3], 8), 3, 0},
                              {"ligaments on vagina", 6, nearest_nodes(bodies[6], organs[0], 8), 0, 0},
                              {"ligaments on uterus", 6, nearest_nodes(bodies[6], organs[1], 8), 1, 0}};
+  add_contact_pairs(scene.model);
   scene.observations = play();
   return scene;
 }

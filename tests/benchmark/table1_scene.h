@@ -1,4 +1,5 @@
-// The paper's Table 1 as a made-up pelvis: seven bodies of its sizes, at about their places, without any patient's shape.
+// The paper's Table 1 as a made-up pelvis: seven bodies of its sizes, at about their places, without any patient's
+// shape.
 #pragma once
 
 #include "registration/registration.h"
@@ -24,6 +25,7 @@ struct Scene
 
 /// Four organs (the uterus solid, the others one layer of tetrahedra about a cavity), two fasciae and five bands of
 /// hexahedra. Every body has `scale` times the nodes asked for, as nearly as its grid allows. Attachments hold 40 nodes
-/// (120 rows) whatever the scale. Neighbouring organs overlap by a fraction of a millimetre at rest, so that they touch.
+/// (120 rows) whatever the scale. Neighbouring organs overlap by a fraction of a millimetre at rest, so that they
+/// touch.
 Scene table1_scene(const Counts &counts, double scale);
 } // namespace pelvireg::bench

@@ -30,8 +30,8 @@ Eigen::MatrixXd dense(const SymmetricBlockMatrix &matrix)
   return result.selfadjointView<Eigen::Lower>();
 }
 
-/// A random positive definite matrix over a fill-reducing order of the cliques; the pattern of a body without cliques in
-/// common falls into several trees.
+/// A random positive definite matrix over a fill-reducing order of the cliques; the pattern of a body without cliques
+/// in common falls into several trees.
 SymmetricBlockMatrix random_matrix(int n_blocks, std::vector<std::vector<int>> cliques, std::mt19937 &random)
 {
   const std::vector<int> order = fill_reducing_order(n_blocks, cliques);
@@ -53,7 +53,8 @@ SymmetricBlockMatrix random_matrix(int n_blocks, std::vector<std::vector<int>> c
 /// Grids, so that supernodes of all sizes and shapes occur; the last one falls into two trees.
 std::vector<std::pair<int, std::vector<std::vector<int>>>> patterns()
 {
-  std::vector<std::pair<int, std::vector<std::vector<int>>>> result = {{1, {}}, {2, {{0, 1}}}, {7, {{0, 1, 2, 3, 4, 5, 6}}}};
+  std::vector<std::pair<int, std::vector<std::vector<int>>>> result = {
+      {1, {}}, {2, {{0, 1}}}, {7, {{0, 1, 2, 3, 4, 5, 6}}}};
   for (const int n : {3, 8, 13})
   {
     std::vector<std::vector<int>> cells;
@@ -102,7 +103,8 @@ TEST_P(KernelsTest, RefuseAMatrixThatIsNotPositiveDefiniteOrNotFinite)
 {
   std::mt19937 random(13);
   const auto [n_blocks, cliques] = patterns()[4];
-  for (const double spoilt : {-200.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+  for (const double spoilt :
+       {-200.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     for (const int at : {0, n_blocks / 2, n_blocks - 1})
     {
       SymmetricBlockMatrix matrix = random_matrix(n_blocks, cliques, random);
@@ -151,7 +153,8 @@ TEST_P(KernelsTest, GiveTheComplianceOfAnyNumberOfRows)
         EXPECT_NEAR(compliance.free_change(row), free_changes[row], 1e-13);
       Eigen::VectorXd motion = reduced;
       const Eigen::VectorXd factors = Eigen::VectorXd::LinSpaced(n_rows, 1, 3);
-      compliance.add_combination(factor, [&](int k) { return factors[k]; }, motion);
+      compliance.add_combination(
+          factor, [&](int k) { return factors[k]; }, motion);
       factor.solve_upper(motion.data());
       const Eigen::VectorXd expected_motion = llt.solve(load + h.transpose() * factors);
       EXPECT_LE((motion - expected_motion).norm(), 1e-13 * expected_motion.norm());
@@ -179,7 +182,8 @@ TEST_P(KernelsTest, AssembleTetrahedraAsTheElementSays)
   // From small strain to inverted elements: at 8 mm every wall is turned inside out somewhere.
   for (const double amplitude : {0.0, 0.1, 0.5, 8.0})
   {
-    const Points positions = body.rest_positions + amplitude * Points::NullaryExpr(n_nodes, 3, [&] { return uniform(random); });
+    const Points positions =
+        body.rest_positions + amplitude * Points::NullaryExpr(n_nodes, 3, [&] { return uniform(random); });
     SymmetricBlockMatrix matrix(n_nodes, cliques), expected_matrix(n_nodes, cliques);
     Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * n_nodes), expected_load = load;
     TetrahedronAssembly(body, first_unknown, matrix, kernels_of(GetParam())).add(positions, matrix, load);

@@ -16,7 +16,7 @@ namespace pelvireg
 {
 namespace
 {
-constexpr double length = 80, width = 4;                // mm, square section
+constexpr double length = 80, width = 4;               // mm, square section
 constexpr double youngs_modulus = 0.5, poisson = 0.45; // MPa
 /// F L^2 / (E I) = 4: an inextensible elastica turns its tip by 64 degrees and lowers it by 0.67 of its length.
 constexpr double load = 4 * youngs_modulus * (width * width * width * width / 12) / (length * length); // N, along z
@@ -43,7 +43,8 @@ Sections mean_sections(const Positions &rest, const Displacement &displacement)
 Sections reference_beam()
 {
   using namespace reference_fe;
-  // Three bricks across: the pressure is constant in a cell, so with one it vanishes in bending and the beam is too soft.
+  // Three bricks across: the pressure is constant in a cell, so with one it vanishes in bending and the beam is too
+  // soft.
   const int n_across = 3;
   const dataset::ReferenceSolid solid = block_solid(Eigen::Vector3i(20, n_across, n_across), {length, width, width});
   const double mu = youngs_modulus / (2 * (1 + poisson)), kappa = youngs_modulus / (3 * (1 - 2 * poisson));
