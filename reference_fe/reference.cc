@@ -16,15 +16,25 @@ namespace pelvireg::reference_fe
 namespace
 {
 constexpr double largest_energy_error = 1; // percent of the external work
+constexpr double largest_penetration = 0.1; // mm
+
+/// Where the deepest penetration is, when it is too deep.
+std::string place(const ContactPenetration &deepest)
+{
+  const Eigen::Vector3d &x = deepest.position;
+  return deepest.depth <= largest_penetration ? ""
+                                              : fmt::format(" ({} into {} at {:.1f}, {:.1f}, {:.1f})", deepest.part,
+                                                            deepest.other, x.x(), x.y(), x.z());
+}
 
 std::string describe(int increment, int n_increments, const dataset::IncrementRecord &record,
-                     const dataset::BalanceRecord &balance, int unsettled_steps)
+                     const dataset::BalanceRecord &balance, const ContactPenetration &deepest, int unsettled_steps)
 {
   const bool is_balanced = std::abs(balance.energy_error_percent) <= largest_energy_error;
   return fmt::format("increment {} of {}: vagina {:.2f} mm, pressure {:.2f} kPa, {} iterations, {} cuts, penetration "
-                     "{:.3f} mm{}{}",
+                     "{:.3f} mm{}{}{}",
                      increment, n_increments, record.mean_vaginal_displacement, 1e3 * record.pressure,
-                     record.newton_iterations, record.cuts, record.max_penetration,
+                     record.newton_iterations, record.cuts, record.max_penetration, place(deepest),
                      unsettled_steps > 0 ? fmt::format(", contact unsettled in {} steps", unsettled_steps) : "",
                      is_balanced ? "" : fmt::format(", energy balance off by {:.2f} %", balance.energy_error_percent));
 }
@@ -63,8 +73,11 @@ dataset::Truth solve_reference(const dataset::Anatomy &anatomy, const ReferenceO
     {
       throw ComputationError(fmt::format("increment {} of {}: {}", increment, n, error.what()));
     }
-    report(static_cast<double>(increment) / n, describe(increment, n, recorder.truth().increments.back(),
-                                                        recorder.truth().balances.back(), effort.unsettled_steps));
+    const ContactPenetration deepest =
+        model.contact ? model.contact->deepest_penetration(stepper.solution()) : ContactPenetration{};
+    report(static_cast<double>(increment) / n,
+           describe(increment, n, recorder.truth().increments.back(), recorder.truth().balances.back(), deepest,
+                    effort.unsettled_steps));
   }
   return recorder.truth();
 }
