@@ -1,8 +1,9 @@
-// estimate-<condition>.h5: where the registration put the organs.
+// estimate-<label>.h5: where the registration put the organs.
 #pragma once
 
 #include "synthetic/dataset/geometry.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -13,14 +14,14 @@ namespace pelvireg::dataset
 /// What one registration step says of itself.
 struct StepRecord
 {
-  std::string status = "ok";      ///< "ok", or why the step failed
+  std::string status = "ok"; ///< "ok", or why the step failed
   int offered_control_points = 0;
   int accepted_control_points = 0;
-  double in_plane_residual = 0;   ///< mm, mean over the accepted points after the step, re-matched
+  double in_plane_residual = 0;     ///< mm, mean over the accepted points after the step, re-matched
   double max_in_plane_residual = 0; ///< mm
-  double attachment_residual = 0; ///< mm, largest
-  double out_of_plane_force = 0;  ///< N, largest nodal component along the plane's normal of the sliding rows' forces
-  double in_plane_force = 0;      ///< N, largest nodal in-plane component of the same
+  double attachment_residual = 0;   ///< mm, largest
+  double out_of_plane_force = 0;    ///< N, largest nodal component along the plane's normal of the sliding rows' forces
+  double in_plane_force = 0;        ///< N, largest nodal in-plane component of the same
   int solver_sweeps = 0;
   int contacts = 0;                   ///< contact constraints offered to the solver
   double contact_force = 0;           ///< N, sum of the contacts' normal forces
@@ -40,15 +41,30 @@ struct EstimateSurface
   std::vector<Points> positions; ///< n_steps x (n x 3), mm
 };
 
+/// What the randomised runs of an estimate were given instead of the truth, one thing at a time; 0 for all others. The
+/// draws are described where they are made (validation/runner/perturbation.h).
+struct Perturbation
+{
+  std::string kind = "modulus";          ///< "modulus", "surface", "outline" or "plane"
+  std::uint64_t seed = 1;                ///< run k depends on seed and k alone
+  double modulus_spread = 0;             ///< Young's moduli times 1 + spread U(-1, 1)
+  double surface_sd = 0;                 ///< mm, of the rest surfaces along their normal
+  double surface_correlation_length = 0; ///< mm
+  double outline_sd = 0;                 ///< mm, of a control point along each of two axes in the plane
+  double plane_offset_sd = 0;            ///< mm, along the DYN plane's normal
+  double plane_tilt_sd = 0;              ///< rad, about each of two axes in the DYN plane
+  bool operator==(const Perturbation &) const = default;
+};
+
 /// One run of the registration.
 struct EstimateSample
 {
-  int sample = 0;                          ///< 0 is the nominal run
-  std::vector<EstimateSurface> surfaces;   ///< organ_names in order
+  int sample = 0;                        ///< 0 is the nominal run
+  std::vector<EstimateSurface> surfaces; ///< organ_names in order
   std::vector<StepRecord> steps;
 };
 
-/// Content of estimate-<condition>.h5.
+/// Content of estimate-<label>.h5.
 struct Estimate
 {
   std::string case_name;
@@ -56,8 +72,14 @@ struct Estimate
   std::vector<EstimateSample> samples;
   /// Organs that were kept from penetrating each other; empty when the condition has no contact.
   std::vector<std::pair<std::string, std::string>> contact_pairs;
+  Perturbation perturbation = {};
+
+  /// What files and tables call these runs: the condition, followed by what was perturbed when that is not the moduli:
+  /// "full", "full_outline".
+  std::string label() const { return perturbation.kind == "modulus" ? condition : condition + "_" + perturbation.kind; }
 };
 
+/// The rest surfaces of the file are those of the first sample; a sample whose rest points differ keeps its own.
 void save(const Estimate &estimate, const std::filesystem::path &file);
 Estimate load_estimate(const std::filesystem::path &file);
 } // namespace pelvireg::dataset

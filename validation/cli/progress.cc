@@ -68,14 +68,17 @@ void Progress::update(double fraction, const std::string &message)
   std::fflush(stdout);
 }
 
+std::string Progress::time_left(double fraction, const std::string &separator) const
+{
+  return fraction > 0.01 ? separator + duration_text(seconds() * (1 - fraction) / fraction) + " left" : "";
+}
+
 void Progress::draw_bar(double fraction, const std::string &message)
 {
   const int filled = static_cast<int>(fraction * bar_width);
   std::string line = fmt::format("{:<10} [{}{}] {:3.0f} %", stage_, std::string(static_cast<std::size_t>(filled), '#'),
                                  std::string(static_cast<std::size_t>(bar_width - filled), '.'), 100 * fraction);
-  if (fraction > 0.01)
-    line += fmt::format("  {} left", duration_text(seconds() * (1 - fraction) / fraction));
-  line += "  " + message;
+  line += time_left(fraction, "  ") + "  " + message;
   // A line that wraps could not be drawn over.
   fmt::print("\r\033[K{}", line.substr(0, terminal_width() - 1));
   has_bar_ = true;
@@ -83,7 +86,7 @@ void Progress::draw_bar(double fraction, const std::string &message)
 
 void Progress::print_line(double fraction, const std::string &message)
 {
-  fmt::print("{}: {:.0f} %, {}\n", stage_, 100 * fraction, message);
+  fmt::print("{}: {:.0f} %{}, {}\n", stage_, 100 * fraction, time_left(fraction, ", "), message);
 }
 
 void Progress::say(const std::string &message)

@@ -28,6 +28,8 @@ public:
   std::function<void(double, const std::string &)> callback();
 
 private:
+  /// Empty while too little is done to tell.
+  std::string time_left(double fraction, const std::string &separator) const;
   void draw_bar(double fraction, const std::string &message);
   void print_line(double fraction, const std::string &message);
 

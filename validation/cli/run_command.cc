@@ -13,6 +13,7 @@ namespace
 struct Arguments
 {
   std::string case_name, out;
+  std::vector<std::string> conditions = runner::default_conditions();
   SampleSettings settings;
   int jobs = 1;
 };
@@ -32,6 +33,7 @@ void print_times(const Manifest &manifest)
 
 void run_chain(const Arguments &given, const std::string &command_line)
 {
+  const std::vector<RegisterRequest> requests = requests_of(expanded_conditions(given.conditions), given.settings);
   const std::string text = anatomy::case_text(given.case_name);
   const std::string label = case_label(given.case_name);
   const std::filesystem::path out = given.out.empty() ? "out/" + label : given.out;
@@ -40,8 +42,8 @@ void run_chain(const Arguments &given, const std::string &command_line)
   make_anatomy(directory, label, text);
   make_truth(directory, given.jobs);
   make_observations(directory);
-  for (const std::string &condition : runner::default_conditions())
-    make_estimate(directory, condition, given.settings, given.jobs);
+  for (const RegisterRequest &request : requests)
+    make_estimate(directory, request, given.jobs);
   make_errors(directory, given.jobs);
   make_report(directory, given.jobs);
 
@@ -59,10 +61,13 @@ void add_run_command(CLI::App &program, Invocation &invocation)
   command->add_option("CASE", arguments->case_name, "Built-in name (see 'pelvireg cases') or path to a .toml file")
       ->required();
   command->add_option("--out", arguments->out, "Result directory, made when missing; out/CASE when not given");
+  add_condition_option(*command, arguments->conditions);
   add_sample_options(*command, arguments->settings);
   add_jobs_option(*command, arguments->jobs);
   command->footer("Examples:\n  pelvireg run quick\n  pelvireg run t005 --out out/t005 --jobs 2\n"
-                  "  pelvireg run my_case.toml --samples 100\nA stage whose inputs have not changed is not run again.");
+                  "  pelvireg run t005 --conditions all\n"
+                  "  pelvireg run t005 --samples 100 --perturb modulus,surface,outline,plane\nA stage whose inputs "
+                  "have not changed is not run again.");
   command->callback(
       [&invocation, arguments]
       { invocation.action = [&invocation, arguments] { run_chain(*arguments, invocation.command_line); }; });

@@ -22,6 +22,8 @@ void remove_leftovers(const std::filesystem::path &directory)
   for (const auto &entry : std::filesystem::directory_iterator(directory))
     if (entry.is_regular_file() && entry.path().extension().string().rfind(".tmp", 0) == 0)
       std::filesystem::remove(entry.path());
+    else if (entry.is_directory() && entry.path().filename().string().rfind("parts-", 0) == 0)
+      remove_leftovers(entry.path());
 }
 
 /// Make a directory and its missing parents; those that were missing, outermost first.
@@ -52,7 +54,7 @@ std::string key_of(const Stage &stage, const FileDigests &inputs)
 }
 } // namespace
 
-ResultDirectory::ResultDirectory(std::filesystem::path path, std::string command_line, Missing missing)
+ResultDirectory::ResultDirectory(std::filesystem::path path, std::string command_line, Missing missing, Access access)
     : path_(std::move(path)), command_line_(std::move(command_line))
 {
   if (missing == Missing::create)
@@ -61,13 +63,14 @@ ResultDirectory::ResultDirectory(std::filesystem::path path, std::string command
   if (lock_ < 0)
     throw InputError(fmt::format("result directory '{}' does not exist; make it with 'pelvireg anatomy CASE --out {}'",
                                  path_.string(), path_.string()));
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
+  if (::flock(lock_, (access == Access::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0)
   {
     ::close(lock_);
     throw InputError(fmt::format("result directory '{}' is in use by another pelvireg; wait for it or give another one",
                                  path_.string()));
   }
-  remove_leftovers(path_);
+  if (access == Access::alone)
+    remove_leftovers(path_);
   manifest_ = load_manifest(path_);
 }
 
@@ -109,13 +112,13 @@ void ResultDirectory::require_current(const std::string &file)
   }
 }
 
-FileDigests ResultDirectory::digests_of_inputs(const Stage &stage)
+FileDigests ResultDirectory::current(const std::vector<std::string> &files)
 {
   FileDigests digests;
-  for (const std::string &input : stage.inputs)
+  for (const std::string &file : files)
   {
-    require_current(input);
-    digests[input] = digest(input);
+    require_current(file);
+    digests[file] = digest(file);
   }
   return digests;
 }
@@ -134,7 +137,7 @@ bool ResultDirectory::is_up_to_date(const Stage &stage, const std::string &key)
 Notes ResultDirectory::run(const Stage &stage)
 {
   StageRecord record;
-  record.inputs = digests_of_inputs(stage);
+  record.inputs = current(stage.inputs);
   record.key = key_of(stage, record.inputs);
   if (is_up_to_date(stage, record.key))
   {

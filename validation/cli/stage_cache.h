@@ -26,7 +26,7 @@ struct Stage
   std::function<Notes(Progress &)> work;          ///< makes every output, or throws
 };
 
-/// A result directory in use by this process alone, for as long as the object lives.
+/// A result directory in use by this process, for as long as the object lives.
 class ResultDirectory
 {
 public:
@@ -36,8 +36,14 @@ public:
     create  ///< it is made, and removed again when nothing came to lie in it
   };
 
+  enum class Access
+  {
+    alone, ///< to run stages
+    shared ///< beside others that also only read what is there and write files of their own; run() is not for them
+  };
+
   /// Throws InputError when the directory cannot be opened or another pelvireg uses it.
-  ResultDirectory(std::filesystem::path path, std::string command_line, Missing missing);
+  ResultDirectory(std::filesystem::path path, std::string command_line, Missing missing, Access access = Access::alone);
   ~ResultDirectory();
   ResultDirectory(const ResultDirectory &) = delete;
   ResultDirectory &operator=(const ResultDirectory &) = delete;
@@ -51,8 +57,10 @@ public:
   /// what the stage throws otherwise. Returns the stage's notes.
   Notes run(const Stage &stage);
 
+  /// Digests of files that a stage reads. Throws InputError as run() does for its inputs.
+  FileDigests current(const std::vector<std::string> &files);
+
 private:
-  FileDigests digests_of_inputs(const Stage &stage);
   void require_current(const std::string &file);
   bool is_up_to_date(const Stage &stage, const std::string &key);
   const std::string &digest(const std::string &file);

@@ -1,6 +1,5 @@
 #include "validation/cli/commands.h"
 #include "validation/cli/stages.h"
-#include "validation/runner/register.h"
 
 #include <fmt/format.h>
 
@@ -15,8 +14,6 @@ namespace
 struct Arguments
 {
   std::string directory;
-  std::vector<std::string> conditions = runner::default_conditions();
-  SampleSettings settings;
   int jobs = 1;
   std::string log_file; ///< of the reference
 };
@@ -40,33 +37,16 @@ CLI::App *add_command(CLI::App &program, Invocation &invocation, const std::shar
       });
   return command;
 }
-
-void add_register(CLI::App &program, Invocation &invocation)
-{
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App *command = add_command(program, invocation, arguments, "register",
-                                  "Play the outlines to the registration: estimate-CONDITION.h5",
-                                  [](ResultDirectory &directory, const Arguments &given)
-                                  {
-                                    for (const std::string &condition : given.conditions)
-                                      make_estimate(directory, condition, given.settings, given.jobs);
-                                  });
-  command
-      ->add_option("--condition", arguments->conditions,
-                   "Which constraints hold; full and no_boundary_conditions when not given")
-      ->check(CLI::IsMember(runner::condition_names()));
-  add_sample_options(*command, arguments->settings);
-  add_jobs_option(*command, arguments->jobs);
-  command->footer("Examples:\n  pelvireg register out/t005\n  pelvireg register out/t005 --condition no_contact\n"
-                  "  pelvireg register out/t005 --samples 100 --spread 0.10 --seed 1 --jobs 2");
-}
 } // namespace
 
 void print_error_table(const ResultDirectory &directory)
 {
-  std::ostringstream table;
-  table << std::ifstream(directory.path() / "error_table.txt").rdbuf();
-  fmt::print("\n{}", table.str());
+  for (const char *file : {"error_table.txt", "condition_table.txt"})
+  {
+    std::ostringstream table;
+    table << std::ifstream(directory.path() / file).rdbuf();
+    fmt::print("\n{}", table.str());
+  }
 }
 
 void add_stage_commands(CLI::App &program, Invocation &invocation)
@@ -84,8 +64,6 @@ void add_stage_commands(CLI::App &program, Invocation &invocation)
                         "Outlines in the image plane and validation slices: observations.h5",
                         [](ResultDirectory &directory, const Arguments &) { make_observations(directory); });
   command->footer("Example:\n  pelvireg observe out/t005");
-
-  add_register(program, invocation);
 
   const auto evaluate = std::make_shared<Arguments>();
   command = add_command(program, invocation, evaluate, "evaluate",

@@ -5,8 +5,10 @@
 #include "synthetic/dataset/atomic_file.h"
 #include "synthetic/dataset/error.h"
 #include "synthetic/observation/observe.h"
+#include "validation/cli/register_stage.h"
 #include "validation/cli/sha256.h"
 #include "validation/cli/studies.h"
+#include "validation/runner/condition_table.h"
 #include "validation/runner/error_table.h"
 #include "validation/runner/result_files.h"
 
@@ -19,17 +21,6 @@
 
 namespace pelvireg::cli
 {
-namespace
-{
-Notes to_notes(const runner::StepTiming &timing)
-{
-  return {{"n_steps", timing.n_steps},
-          {"median_ms", timing.median_ms},
-          {"p95_ms", timing.p95_ms},
-          {"max_ms", timing.max_ms}};
-}
-} // namespace
-
 std::vector<std::string> estimate_files(const ResultDirectory &directory)
 {
   std::vector<std::string> files;
@@ -46,11 +37,11 @@ std::vector<std::string> estimate_files(const ResultDirectory &directory)
 std::vector<runner::StepTiming> recorded_timings(const ResultDirectory &directory)
 {
   std::vector<runner::StepTiming> timings;
-  for (const std::string &condition : runner::condition_names())
+  for (const std::string &label : estimate_labels())
   {
-    const StageRecord *maker = directory.manifest().maker_of("estimate-" + condition + ".h5");
+    const StageRecord *maker = directory.manifest().maker_of("estimate-" + label + ".h5");
     if (maker && maker->notes.contains("median_ms"))
-      timings.push_back({.condition = condition,
+      timings.push_back({.condition = label,
                          .n_steps = static_cast<int>(maker->notes.at("n_steps")),
                          .median_ms = maker->notes.at("median_ms"),
                          .p95_ms = maker->notes.at("p95_ms"),
@@ -75,8 +66,8 @@ Judgement judge(const ResultDirectory &directory, int jobs, Progress &progress)
 std::vector<std::string> stage_order()
 {
   std::vector<std::string> names = {"anatomy", "reference", "observe"};
-  for (const std::string &condition : runner::condition_names())
-    names.push_back("register " + condition);
+  for (const std::string &label : estimate_labels())
+    names.push_back("register " + label);
   names.insert(names.end(), {"evaluate", "report"});
   return names;
 }
@@ -147,31 +138,6 @@ void make_observations(ResultDirectory &directory)
                  }});
 }
 
-void make_estimate(ResultDirectory &directory, const std::string &condition, const SampleSettings &settings, int jobs)
-{
-  const std::string file = "estimate-" + condition + ".h5";
-  directory.run(
-      {.name = "register " + condition,
-       .code = {"registration", "validation/runner", "synthetic/dataset"},
-       .options = fmt::format("samples {} spread {} seed {}", settings.samples, settings.spread, settings.seed),
-       .inputs = {"anatomy.h5", "observations.h5"},
-       .outputs = {file},
-       .work = [&](Progress &progress) -> Notes
-       {
-         const dataset::Anatomy anatomy = dataset::load_anatomy(directory.path() / "anatomy.h5");
-         const dataset::Observations observations = dataset::load_observations(directory.path() / "observations.h5");
-         runner::RunnerOptions options;
-         options.samples = settings.samples;
-         options.spread = settings.spread;
-         options.seed = settings.seed;
-         options.n_threads = jobs;
-         options.progress = progress.callback();
-         runner::StepTiming timing;
-         save(runner::run_registration(anatomy, observations, condition, options, &timing), directory.path() / file);
-         return to_notes(timing);
-       }});
-}
-
 void make_errors(ResultDirectory &directory, int jobs)
 {
   const std::vector<std::string> estimates = estimate_files(directory);
@@ -183,18 +149,20 @@ void make_errors(ResultDirectory &directory, int jobs)
     // summary.json and the table print them
     options += fmt::format("{} {} {} {} {}\n", timing.condition, timing.n_steps, timing.median_ms, timing.p95_ms,
                            timing.max_ms);
-  directory.run({.name = "evaluate",
-                 .code = {"validation/metrics", "validation/runner", "synthetic/dataset"},
-                 .options = options,
-                 .inputs = inputs,
-                 .outputs = {"errors_by_step.csv", "errors_by_slice.csv", "summary.json", "error_table.txt"},
-                 .work = [&](Progress &progress) -> Notes
-                 {
-                   const runner::Evaluation evaluation = judge(directory, jobs, progress).evaluation;
-                   runner::write_result_files(evaluation, timings, directory.path());
-                   dataset::write_text_file(directory.path() / "error_table.txt",
-                                            runner::error_table(evaluation, timings));
-                   return {};
-                 }});
+  directory.run(
+      {.name = "evaluate",
+       .code = {"validation/metrics", "validation/runner", "synthetic/dataset"},
+       .options = options,
+       .inputs = inputs,
+       .outputs = {"errors_by_step.csv", "errors_by_slice.csv", "curves_by_step.csv", "curves_by_slice.csv",
+                   "summary.json", "error_table.txt", "condition_table.txt"},
+       .work = [&](Progress &progress) -> Notes
+       {
+         const runner::Evaluation evaluation = judge(directory, jobs, progress).evaluation;
+         runner::write_result_files(evaluation, timings, directory.path());
+         dataset::write_text_file(directory.path() / "error_table.txt", runner::error_table(evaluation, timings));
+         dataset::write_text_file(directory.path() / "condition_table.txt", runner::condition_table(evaluation));
+         return {};
+       }});
 }
 } // namespace pelvireg::cli

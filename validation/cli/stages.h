@@ -5,29 +5,19 @@
 #include "validation/runner/evaluate.h"
 #include "validation/runner/register.h"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace pelvireg::cli
 {
-/// The randomised runs of the registration.
-struct SampleSettings
-{
-  int samples = 0;      ///< beside the nominal run
-  double spread = 0.10; ///< of Young's moduli, as a fraction
-  std::uint64_t seed = 1;
-};
-
 /// case.toml, anatomy.h5. `text` is the case file's content.
 void make_anatomy(ResultDirectory &directory, const std::string &case_name, const std::string &text);
 /// truth.h5. Every step and iteration of the solver becomes a line of `log_file`, when it is not empty.
 void make_truth(ResultDirectory &directory, int jobs, const std::string &log_file = {});
 /// observations.h5
 void make_observations(ResultDirectory &directory);
-/// estimate-<condition>.h5
-void make_estimate(ResultDirectory &directory, const std::string &condition, const SampleSettings &settings, int jobs);
-/// errors_by_step.csv, errors_by_slice.csv, summary.json, error_table.txt, from every estimate in the directory
+/// errors_by_*.csv, curves_by_*.csv, summary.json, error_table.txt, condition_table.txt, from every estimate in the
+/// directory
 void make_errors(ResultDirectory &directory, int jobs);
 /// report.html, pictures/*.png
 void make_report(ResultDirectory &directory, int jobs);

@@ -193,7 +193,7 @@ std::vector<Run> runs_in_order(const std::vector<dataset::Estimate> &estimates)
   std::vector<Run> runs = {{unregistered, 0, nullptr}};
   for (const dataset::Estimate &estimate : estimates)
     for (const dataset::EstimateSample &sample : estimate.samples)
-      runs.push_back({estimate.condition, sample.sample, &sample});
+      runs.push_back({estimate.label(), sample.sample, &sample});
   std::sort(runs.begin(), runs.end(),
             [](const Run &a, const Run &b)
             {

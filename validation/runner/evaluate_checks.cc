@@ -125,14 +125,14 @@ void require_comparable(const dataset::Anatomy &anatomy, const dataset::Truth &t
   std::set<std::pair<std::string, int>> seen;
   for (const dataset::Estimate &estimate : estimates)
   {
-    require_same_case(fmt::format("estimate '{}'", estimate.condition), estimate.case_name, anatomy.case_name);
-    require_condition_name(estimate.condition);
+    require_same_case(fmt::format("estimate '{}'", estimate.label()), estimate.case_name, anatomy.case_name);
+    require_condition_name(estimate.label());
     if (estimate.samples.empty())
-      throw InputError(fmt::format("evaluate: estimate '{}' holds no run; register again", estimate.condition));
+      throw InputError(fmt::format("evaluate: estimate '{}' holds no run; register again", estimate.label()));
     for (const dataset::EstimateSample &sample : estimate.samples)
     {
-      const std::string where = fmt::format("estimate '{}', sample {}", estimate.condition, sample.sample);
-      if (!seen.emplace(estimate.condition, sample.sample).second)
+      const std::string where = fmt::format("estimate '{}', sample {}", estimate.label(), sample.sample);
+      if (!seen.emplace(estimate.label(), sample.sample).second)
         throw InputError(fmt::format("evaluate: {} is there twice; pass each run once", where));
       require_usable_sample(sample, n_steps, where);
     }

@@ -13,9 +13,15 @@ void for_each_index(int n, int n_threads, const std::function<void(int)> &job)
 {
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(std::max(n, 0)));
   std::atomic<int> next{0};
+  std::atomic<bool> has_failed{false};
   const auto work = [&]
   {
-    for (int i = next++; i < n; i = next++)
+    // Whoever takes an index runs it: so all indices before one that failed were run.
+    while (!has_failed)
+    {
+      const int i = next++;
+      if (i >= n)
+        return;
       try
       {
         job(i);
@@ -23,7 +29,9 @@ void for_each_index(int n, int n_threads, const std::function<void(int)> &job)
       catch (const std::exception &)
       {
         failures[static_cast<std::size_t>(i)] = std::current_exception();
+        has_failed = true;
       }
+    }
   };
   std::vector<std::thread> helpers;
   for (int t = 1; t < std::min(n_threads, n); ++t)

@@ -1,6 +1,5 @@
 #include "validation/runner/register.h"
 
-#include "registration/registration.h"
 #include "synthetic/dataset/error.h"
 #include "validation/runner/outer_surface.h"
 #include "validation/runner/parallel.h"
@@ -13,6 +12,7 @@
 #include <cstddef>
 #include <mutex>
 #include <stdexcept>
+#include <utility>
 
 namespace pelvireg::runner
 {
@@ -95,28 +95,8 @@ dataset::StepRecord convert(const registration::StepSummary &summary,
   return record;
 }
 
-registration::Options options_of(const std::string &condition, const dataset::Anatomy &anatomy)
+void require_usable(const dataset::Anatomy &anatomy, const dataset::Observations &observations)
 {
-  registration::Options options;
-  options.time_step = anatomy.registration_time_step;
-  options.use_attachments = condition != "no_boundary_conditions";
-  options.use_contact = condition != "no_boundary_conditions" && condition != "no_contact";
-  if (condition == "no_friction")
-    options.friction_coefficient = 0;
-  return options;
-}
-
-void require_usable(const dataset::Anatomy &anatomy, const dataset::Observations &observations,
-                    const std::string &condition, const RunnerOptions &options)
-{
-  const std::vector<std::string> known = condition_names();
-  if (std::find(known.begin(), known.end(), condition) == known.end())
-    throw InputError(
-        fmt::format("register: condition '{}' is unknown, allowed are: {}", condition, fmt::join(known, ", ")));
-  if (options.samples < 0 || !(options.spread >= 0 && options.spread < 1) || options.n_threads < 1)
-    throw InputError(fmt::format("register: got samples {}, spread {}, threads {}; allowed are samples >= 0, "
-                                 "0 <= spread < 1, threads >= 1",
-                                 options.samples, options.spread, options.n_threads));
   if (anatomy.registration_steps_per_increment < 1)
     throw InputError(fmt::format("register: the case plays an increment {} times, must be at least once",
                                  anatomy.registration_steps_per_increment));
@@ -133,47 +113,91 @@ void require_usable(const dataset::Anatomy &anatomy, const dataset::Observations
                                    organ_names.size()));
 }
 
-/// Everything that the runs share.
-struct Setup
+std::vector<std::pair<std::string, std::string>> names_of(const std::vector<registration::ContactPair> &pairs,
+                                                          const std::vector<registration::Body> &bodies)
 {
-  registration::Model model;
-  registration::Options options;
-  std::vector<registration::Observation> observations; ///< one an increment
-  std::vector<int> organ_bodies;                       ///< organ_names in order
-  std::vector<OuterSurface> organ_surfaces;            ///< organ_names in order
-  int steps_per_increment = 0;
-};
-
-Setup set_up(const dataset::Anatomy &anatomy, const dataset::Observations &observations, const std::string &condition)
-{
-  Setup setup;
-  setup.model = convert(anatomy.registration);
-  setup.options = options_of(condition, anatomy);
-  for (const dataset::DynamicFrame &frame : observations.frames)
-    setup.observations.push_back(convert(frame, observations.dyn_plane, anatomy.registration));
-  for (const std::string &organ : organ_names)
-  {
-    setup.organ_bodies.push_back(body_index(anatomy.registration, organ));
-    setup.organ_surfaces.push_back(
-        outer_surface(anatomy.registration.bodies[static_cast<std::size_t>(setup.organ_bodies.back())]));
-  }
-  setup.steps_per_increment = anatomy.registration_steps_per_increment;
-  return setup;
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const registration::ContactPair &pair : pairs)
+    names.emplace_back(bodies[static_cast<std::size_t>(pair.body_a)].name,
+                       bodies[static_cast<std::size_t>(pair.body_b)].name);
+  return names;
 }
 
-/// Play one run. step_ms receives the wall time of each step.
-dataset::EstimateSample play(const Setup &setup, const registration::Model &model, int sample,
-                             std::vector<double> &step_ms, const std::function<void()> &step_done)
+const dataset::RegistrationBody &organ_body(const dataset::RegistrationModel &model, const std::string &organ)
 {
+  return model.bodies[static_cast<std::size_t>(body_index(model, organ))];
+}
+} // namespace
+
+std::vector<int> runs_of_shard(int samples, const Shard &shard)
+{
+  std::vector<int> numbers;
+  for (int number = shard.index - 1; number <= samples; number += shard.n)
+    numbers.push_back(number);
+  return numbers;
+}
+
+StepTiming timing_of(const std::string &label, std::vector<double> step_ms)
+{
+  std::sort(step_ms.begin(), step_ms.end());
+  const auto at = [&](double fraction)
+  { return step_ms[static_cast<std::size_t>(fraction * static_cast<double>(step_ms.size() - 1))]; };
+  return {label, static_cast<int>(step_ms.size()), at(0.5), at(0.95), step_ms.back()};
+}
+
+RegistrationRuns::RegistrationRuns(const dataset::Anatomy &anatomy, const dataset::Observations &observations,
+                                   const std::string &condition, const dataset::Perturbation &perturbation)
+    : condition_(condition), model_(anatomy.registration), observations_(observations),
+      steps_per_increment_(anatomy.registration_steps_per_increment)
+{
+  require_known_condition(condition);
+  runner::require_usable(perturbation);
+  require_usable(anatomy, observations);
+  options_ = options_of(condition, anatomy);
+  description_.case_name = anatomy.case_name;
+  description_.condition = condition;
+  description_.perturbation = perturbation;
+  const registration::Model nominal = convert(model_of_run(0));
+  if (options_.use_contact)
+    description_.contact_pairs = names_of(nominal.contact_pairs, nominal.bodies);
+  for (const std::string &organ : organ_names)
+    rest_surfaces_.push_back({organ, outer_surface(organ_body(model_, organ)).rest, {}});
+}
+
+/// Numbers are drawn for the bodies of the whole model, so that a body is the same in every condition.
+dataset::RegistrationModel RegistrationRuns::model_of_run(int sample) const
+{
+  return model_of(condition_, perturbed(model_, description_.perturbation, sample));
+}
+
+dataset::EstimateSample RegistrationRuns::play(int sample, std::vector<double> &step_ms,
+                                               const std::function<void()> &step_done) const
+{
+  const dataset::RegistrationModel model = model_of_run(sample);
+  const dataset::Observations observations = perturbed(observations_, description_.perturbation, sample);
   dataset::EstimateSample run;
   run.sample = sample;
-  for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
-    run.surfaces.push_back({organ_names[organ], setup.organ_surfaces[organ].rest, {}});
+  std::vector<OuterSurface> surfaces;
+  for (const std::string &organ : organ_names)
+  {
+    surfaces.push_back(outer_surface(organ_body(model, organ)));
+    run.surfaces.push_back({organ, surfaces.back().rest, {}});
+  }
 
   registration::Registration registration;
-  registration.prepare(model, setup.options);
-  for (const registration::Observation &observation : setup.observations)
-    for (int repetition = 0; repetition < setup.steps_per_increment; ++repetition)
+  try
+  {
+    registration.prepare(convert(model), options_);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw InputError(fmt::format("register, condition '{}', run {}: the registration refuses the model: {}", condition_,
+                                 sample, error.what()));
+  }
+  for (const dataset::DynamicFrame &frame : observations.frames)
+  {
+    const registration::Observation observation = convert(frame, observations.dyn_plane, model);
+    for (int repetition = 0; repetition < steps_per_increment_; ++repetition)
     {
       const auto start = std::chrono::steady_clock::now();
       const registration::StepSummary summary = registration.update(observation);
@@ -181,81 +205,54 @@ dataset::EstimateSample play(const Setup &setup, const registration::Model &mode
       run.steps.push_back(convert(summary, registration.penetrations()));
       for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
         run.surfaces[organ].positions.push_back(
-            setup.organ_surfaces[organ].pick(registration.positions(setup.organ_bodies[organ])));
+            surfaces[organ].pick(registration.positions(body_index(model, organ_names[organ]))));
       step_done();
     }
+  }
   return run;
 }
 
-registration::Model perturbed(registration::Model model, int sample, const RunnerOptions &options)
+void play_runs(const RegistrationRuns &runs, const std::vector<int> &numbers, const RunnerOptions &options,
+               const RunDone &done)
 {
-  for (std::size_t body = 0; body < model.bodies.size(); ++body)
-    model.bodies[body].youngs_modulus *= modulus_factor(options.seed, sample, static_cast<int>(body), options.spread);
-  return model;
-}
-
-StepTiming timing_of(const std::string &condition, std::vector<double> step_ms)
-{
-  std::sort(step_ms.begin(), step_ms.end());
-  const auto at = [&](double fraction)
-  { return step_ms[static_cast<std::size_t>(fraction * static_cast<double>(step_ms.size() - 1))]; };
-  return {condition, static_cast<int>(step_ms.size()), at(0.5), at(0.95), step_ms.back()};
-}
-} // namespace
-
-std::vector<std::string> condition_names()
-{
-  return {"full", "no_boundary_conditions", "no_contact", "no_friction"};
-}
-
-std::vector<std::string> default_conditions()
-{
-  return {"full", "no_boundary_conditions"};
-}
-
-dataset::Estimate run_registration(const dataset::Anatomy &anatomy, const dataset::Observations &observations,
-                                   const std::string &condition, const RunnerOptions &options, StepTiming *timing)
-{
-  require_usable(anatomy, observations, condition, options);
-  const Setup setup = set_up(anatomy, observations, condition);
-  const int n_runs = options.samples + 1;
-
-  dataset::Estimate estimate;
-  estimate.case_name = anatomy.case_name;
-  estimate.condition = condition;
-  if (setup.options.use_contact)
-    for (const registration::ContactPair &pair : setup.model.contact_pairs)
-      estimate.contact_pairs.emplace_back(setup.model.bodies[static_cast<std::size_t>(pair.body_a)].name,
-                                          setup.model.bodies[static_cast<std::size_t>(pair.body_b)].name);
-  estimate.samples.resize(static_cast<std::size_t>(n_runs));
-  std::vector<std::vector<double>> step_ms(static_cast<std::size_t>(n_runs));
-  std::mutex progress_mutex;
+  std::mutex progress_mutex, done_mutex;
   int n_done = 0;
-  const int n_steps = n_runs * static_cast<int>(setup.observations.size()) * setup.steps_per_increment;
+  const int n_runs = static_cast<int>(numbers.size()), n_steps = n_runs * runs.n_steps();
   const auto step_done = [&]
   {
     const std::lock_guard lock(progress_mutex);
     ++n_done;
     if (options.progress)
       options.progress(static_cast<double>(n_done) / n_steps,
-                       fmt::format("{}: step {} of {} ({} runs)", condition, n_done, n_steps, n_runs));
+                       fmt::format("{}: step {} of {} ({} runs)", runs.description().label(), n_done, n_steps, n_runs));
   };
-  const auto run = [&](int sample)
-  {
-    const auto slot = static_cast<std::size_t>(sample);
-    estimate.samples[slot] = play(setup, perturbed(setup.model, sample, options), sample, step_ms[slot], step_done);
-  };
-  try
-  {
-    for_each_index(n_runs, options.n_threads, run);
-  }
-  catch (const std::invalid_argument &error)
-  {
-    throw InputError(
-        fmt::format("register, condition '{}': the registration refuses the model: {}", condition, error.what()));
-  }
-  if (timing)
-    *timing = timing_of(condition, step_ms.front());
+  for_each_index(n_runs, options.n_threads,
+                 [&](int i)
+                 {
+                   std::vector<double> step_ms;
+                   const dataset::EstimateSample run =
+                       runs.play(numbers[static_cast<std::size_t>(i)], step_ms, step_done);
+                   const std::lock_guard lock(done_mutex);
+                   done(run, step_ms);
+                 });
+}
+
+dataset::Estimate run_registration(const dataset::Anatomy &anatomy, const dataset::Observations &observations,
+                                   const std::string &condition, const RunnerOptions &options, StepTiming *timing)
+{
+  if (options.samples < 0 || options.n_threads < 1)
+    throw InputError(fmt::format("register: got samples {}, threads {}; allowed are samples >= 0, threads >= 1",
+                                 options.samples, options.n_threads));
+  const RegistrationRuns runs(anatomy, observations, condition, options.perturbation);
+  dataset::Estimate estimate = runs.description();
+  estimate.samples.resize(static_cast<std::size_t>(options.samples) + 1);
+  play_runs(runs, runs_of_shard(options.samples, {}), options,
+            [&](const dataset::EstimateSample &run, const std::vector<double> &step_ms)
+            {
+              estimate.samples[static_cast<std::size_t>(run.sample)] = run;
+              if (timing && run.sample == 0)
+                *timing = timing_of(estimate.label(), step_ms);
+            });
   return estimate;
 }
 } // namespace pelvireg::runner

@@ -1,11 +1,15 @@
 #include "validation/runner/result_files.h"
 
+#include "synthetic/dataset/geometry.h"
+#include "validation/runner/aggregate.h"
+
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -38,6 +42,38 @@ std::string errors_by_slice_csv(const Evaluation &evaluation)
   return text;
 }
 
+std::string curves_by_step_csv(const Evaluation &evaluation)
+{
+  std::string text = "condition,organ,step,n_runs,mean_mm,sd_mm\n";
+  for (const std::string &condition : evaluation.conditions)
+    for (const std::string &organ : dataset::organ_names)
+    {
+      int step = 0;
+      for (const Aggregate &value : error_by_step(evaluation, condition, organ))
+        text +=
+            fmt::format("{},{},{},{},{:.9g},{:.9g}\n", condition, organ, ++step, value.n_runs, value.mean, value.sd);
+    }
+  return text;
+}
+
+std::string curves_by_slice_csv(const Evaluation &evaluation)
+{
+  std::string text = "condition,organ,slice_index,offset_mm,n_runs,mean_mm,sd_mm\n";
+  for (const std::string &condition : evaluation.conditions)
+    for (const std::string &organ : dataset::organ_names)
+    {
+      int slice = -evaluation.n_slices_each_side;
+      for (const std::optional<Aggregate> &value : error_by_slice(evaluation, condition, organ))
+      {
+        if (value)
+          text += fmt::format("{},{},{},{:.9g},{},{:.9g},{:.9g}\n", condition, organ, slice,
+                              slice * evaluation.slice_pitch, value->n_runs, value->mean, value->sd);
+        ++slice;
+      }
+    }
+  return text;
+}
+
 void write_text_file(const std::filesystem::path &file, const std::string &text)
 {
   const std::filesystem::path temporary = file.string() + ".tmp" + std::to_string(::getpid());
@@ -58,6 +94,8 @@ void write_result_files(const Evaluation &evaluation, const std::vector<StepTimi
 {
   write_text_file(directory / "errors_by_step.csv", errors_by_step_csv(evaluation));
   write_text_file(directory / "errors_by_slice.csv", errors_by_slice_csv(evaluation));
+  write_text_file(directory / "curves_by_step.csv", curves_by_step_csv(evaluation));
+  write_text_file(directory / "curves_by_slice.csv", curves_by_slice_csv(evaluation));
   write_text_file(directory / "summary.json", summary_json(evaluation, timings));
 }
 } // namespace pelvireg::runner

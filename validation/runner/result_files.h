@@ -1,4 +1,4 @@
-// errors_by_step.csv, errors_by_slice.csv and summary.json (DESIGN 4; docs/result_format.md).
+// errors_by_*.csv, curves_by_*.csv and summary.json (DESIGN 4; docs/result_format.md).
 #pragma once
 
 #include "validation/runner/evaluate.h"
@@ -15,11 +15,16 @@ namespace pelvireg::runner
 std::string errors_by_step_csv(const Evaluation &evaluation);
 std::string errors_by_slice_csv(const Evaluation &evaluation);
 
+/// Content of curves_by_step.csv and curves_by_slice.csv: mean and standard deviation over the runs of what the two
+/// files above hold run by run (aggregate.h), one row a (condition, organ, step or slice).
+std::string curves_by_step_csv(const Evaluation &evaluation);
+std::string curves_by_slice_csv(const Evaluation &evaluation);
+
 /// Content of summary.json: figures by organ and condition, aggregates over the runs, motion of the truth, quality of
 /// the runs, timing when given, verdicts on the paper's claims.
 std::string summary_json(const Evaluation &evaluation, const std::vector<StepTiming> &timings = {});
 
-/// Write all three into `directory`, each to a temporary name and renamed. Throws std::runtime_error when the disk
+/// Write all of them into `directory`, each to a temporary name and renamed. Throws std::runtime_error when the disk
 /// refuses.
 void write_result_files(const Evaluation &evaluation, const std::vector<StepTiming> &timings,
                         const std::filesystem::path &directory);

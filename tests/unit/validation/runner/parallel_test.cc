@@ -40,5 +40,19 @@ TEST(ForEachIndex, ThrowsTheFirstFailureWhicheverCameFirst)
       EXPECT_STREQ(error.what(), "1");
     }
 }
+
+TEST(ForEachIndex, BeginsNoFurtherJobAfterAFailure)
+{
+  std::vector<int> begun;
+  EXPECT_THROW(for_each_index(100, 1,
+                              [&](int i)
+                              {
+                                begun.push_back(i);
+                                if (i == 2)
+                                  throw std::runtime_error("full disk");
+                              }),
+               std::runtime_error);
+  EXPECT_EQ(begun, (std::vector<int>{0, 1, 2}));
+}
 } // namespace
 } // namespace pelvireg::runner
