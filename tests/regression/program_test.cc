@@ -1,6 +1,7 @@
 // The pelvireg program as a person or CI calls it: files, exit status, words.
 #include "synthetic/dataset/truth.h"
 #include "tests/regression/program.h"
+#include "tests/regression/translated_case.h"
 
 #include <cmath>
 #include <map>
@@ -136,31 +137,6 @@ TEST_F(Program, RefusesWhatItDoesNotKnow)
   EXPECT_THAT(files(), IsEmpty());
 }
 
-namespace
-{
-/// The ids of the nodes of a deck.
-std::vector<int> node_ids(const std::string &deck)
-{
-  std::vector<int> ids;
-  std::istringstream lines(deck.substr(deck.find("*NODE")));
-  std::string line;
-  for (std::getline(lines, line); std::getline(lines, line) && line.front() != '*';)
-    ids.push_back(std::stoi(line));
-  return ids;
-}
-
-/// The table of a rigid translation by (0, 0.1, -0.2) mm an increment.
-std::string translation(const std::vector<int> &ids, int n_increments)
-{
-  std::ostringstream table;
-  table << "increment,node,u1,u2,u3\n";
-  for (int i = 1; i <= n_increments; ++i)
-    for (const int id : ids)
-      table << i << "," << id << ",0," << 0.1 * i << "," << -0.2 * i << "\n";
-  return table.str();
-}
-} // namespace
-
 TEST_F(Program, TakesTheMotionThatAnotherProgramGaveItsDeckAsTruth)
 {
   ASSERT_EQ(call("anatomy quick --out a").status, 0);
@@ -199,8 +175,8 @@ TEST_F(Program, TakesTheMotionThatAnotherProgramGaveItsDeckAsTruth)
 
 TEST_F(Program, HasHelpWithExamplesForEveryCommand)
 {
-  for (const char *command : {"", "run", "anatomy", "reference", "observe", "register", "evaluate", "report", "export",
-                              "import", "mesh-study", "cavity-study"})
+  for (const char *command : {"", "run", "anatomy", "reference", "observe", "register", "merge", "evaluate", "report",
+                              "export", "import", "mesh-study", "cavity-study"})
   {
     const Outcome outcome = call(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;

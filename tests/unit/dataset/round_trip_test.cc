@@ -158,6 +158,8 @@ TEST(EstimateFile, ComesBackExactlyForEverySample)
   EXPECT_EQ(loaded.samples[1].surfaces.at(0).positions, saved.samples[1].surfaces[0].positions);
   EXPECT_EQ(loaded.samples[1].steps.at(1).status, saved.samples[1].steps[1].status);
   EXPECT_EQ(loaded.samples[1].steps.at(1).offered_control_points, 77);
+  EXPECT_EQ(loaded.perturbation, saved.perturbation);
+  EXPECT_EQ(loaded.label(), "no_boundary_conditions_surface");
 }
 
 TEST(EveryFile, KeepsEveryFieldThroughLoadAndSave)

@@ -178,6 +178,14 @@ Estimate sample_estimate()
   estimate.case_name = "sample";
   estimate.condition = "no_boundary_conditions";
   estimate.contact_pairs = {{"bladder", "uterus"}, {"uterus", "rectum"}};
+  estimate.perturbation = {.kind = "surface",
+                           .seed = 0xfedcba9876543210,
+                           .modulus_spread = 0.125,
+                           .surface_sd = 1.5,
+                           .surface_correlation_length = 12,
+                           .outline_sd = 0.75,
+                           .plane_offset_sd = 2.5,
+                           .plane_tilt_sd = 0.03125};
   for (const int sample : {0, 7})
   {
     EstimateSample entry;
@@ -201,6 +209,8 @@ Estimate sample_estimate()
                     0,
                     {0.25, 0.125},
                     {7, 3.5}}};
+    if (sample > 0)
+      entry.surfaces[1].rest.points.array() += 0.5;
     estimate.samples.push_back(entry);
   }
   return estimate;

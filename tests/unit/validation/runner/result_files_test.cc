@@ -4,10 +4,12 @@
 #include "validation/runner/claims.h"
 #include "validation/runner/error_table.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -35,7 +37,32 @@ TEST(ResultFiles, CsvHeadersAreThoseOfTheContract)
   EXPECT_EQ(by_step.find("nan"), std::string::npos);
 }
 
-TEST(ResultFiles, ThreeFilesAreWrittenAndNothingElseStays)
+TEST(ResultFiles, CurvesHoldMeanAndDeviationOverTheRandomisedRuns)
+{
+  // Shares of the motion 0.9 (nominal), 0.8 and 0.7: the runs' mean errors are known from the rows run by run.
+  dataset::Estimate estimate = test::sphere_estimate("full", translation, 0.9);
+  for (const int run : {1, 2})
+  {
+    estimate.samples.push_back(test::sphere_estimate("full", translation, 0.9 - 0.1 * run).samples.front());
+    estimate.samples.back().sample = run;
+  }
+  const Evaluation evaluation = evaluate(test::sphere_anatomy(), test::sphere_truth(translation), {estimate});
+  std::vector<double> means;
+  for (const StepError &row : evaluation.by_step)
+    if (row.condition == "full" && row.organ == "uterus" && row.step == 4 && row.sample > 0)
+      means.push_back(row.distance.mean);
+  ASSERT_EQ(means.size(), 2u);
+  const std::string row = fmt::format("\nfull,uterus,4,2,{:.9g},{:.9g}\n", (means[0] + means[1]) / 2,
+                                      std::abs(means[0] - means[1]) / std::sqrt(2.0));
+  const std::string by_step = curves_by_step_csv(evaluation), by_slice = curves_by_slice_csv(evaluation);
+  EXPECT_NE(by_step.find(row), std::string::npos) << by_step;
+  EXPECT_EQ(by_step.substr(0, by_step.find('\n')), "condition,organ,step,n_runs,mean_mm,sd_mm");
+  EXPECT_EQ(std::count(by_step.begin(), by_step.end(), '\n'), 1 + 2 * 4 * 6);
+  EXPECT_EQ(by_slice.substr(0, by_slice.find('\n')), "condition,organ,slice_index,offset_mm,n_runs,mean_mm,sd_mm");
+  EXPECT_NE(by_slice.find("\nfull,uterus,-1,-6,2,"), std::string::npos) << by_slice;
+}
+
+TEST(ResultFiles, AllAreWrittenAndNothingElseStays)
 {
   const auto directory = std::filesystem::path(::testing::TempDir()) / "pelvireg_result_files_test";
   std::filesystem::remove_all(directory);
@@ -45,7 +72,8 @@ TEST(ResultFiles, ThreeFilesAreWrittenAndNothingElseStays)
   for (const auto &entry : std::filesystem::directory_iterator(directory))
     names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
-  EXPECT_EQ(names, (std::vector<std::string>{"errors_by_slice.csv", "errors_by_step.csv", "summary.json"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"curves_by_slice.csv", "curves_by_step.csv", "errors_by_slice.csv",
+                                             "errors_by_step.csv", "summary.json"}));
   std::ifstream stream(directory / "errors_by_step.csv");
   std::stringstream text;
   text << stream.rdbuf();
