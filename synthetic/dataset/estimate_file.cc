@@ -120,20 +120,20 @@ std::vector<std::pair<std::string, std::string>> read_contact_pairs(const GroupR
   return pairs;
 }
 
-void require_fits(const EstimateSample &sample, const std::vector<EstimateSurface> &rest_surfaces)
+/// may_move: the perturbation moves the rest surfaces themselves.
+void require_fits(const EstimateSample &sample, const std::vector<EstimateSurface> &rest_surfaces, bool may_move)
 {
   bool fits = sample.surfaces.size() == rest_surfaces.size();
   for (std::size_t i = 0; fits && i < rest_surfaces.size(); ++i)
   {
     const EstimateSurface &own = sample.surfaces[i], &common = rest_surfaces[i];
     fits = own.name == common.name && own.rest.points.rows() == common.rest.points.rows() &&
-           own.rest.triangles == common.rest.triangles && own.rest.region == common.rest.region &&
-           own.positions.size() == sample.steps.size();
+           (may_move || own.rest.points == common.rest.points) && own.rest.triangles == common.rest.triangles &&
+           own.rest.region == common.rest.region && own.positions.size() == sample.steps.size();
   }
   if (!fits)
-    throw ComputationError(
-        "cannot store sample " + std::to_string(sample.sample) +
-        ": it has other organs, nodes or triangles than the nominal run, or not one position a step");
+    throw ComputationError("cannot store sample " + std::to_string(sample.sample) +
+                           ": it has another rest surface than the nominal run, or not one position a step");
 }
 
 /// Only where the perturbation moved the rest surface itself.
@@ -159,7 +159,7 @@ Perturbation perturbation_of(const GroupReader &root)
 EstimateWriter::EstimateWriter(const std::filesystem::path &file, const Estimate &description,
                                const std::vector<EstimateSurface> &rest_surfaces, const EstimatePart *part)
     : file_(file, part ? part_format : whole_format), rest_surfaces_(rest_surfaces),
-      n_pairs_(description.contact_pairs.size())
+      n_pairs_(description.contact_pairs.size()), moves_surfaces_(description.perturbation.kind == "surface")
 {
   GroupWriter &root = file_.root();
   root.text("case_name", description.case_name);
@@ -177,7 +177,7 @@ void EstimateWriter::add(const EstimateSample &sample)
   if (!numbers_.empty() && sample.sample <= numbers_.back())
     throw ComputationError("cannot store sample " + std::to_string(sample.sample) + " after sample " +
                            std::to_string(numbers_.back()) + ": samples must ascend");
-  require_fits(sample, rest_surfaces_);
+  require_fits(sample, rest_surfaces_, moves_surfaces_);
   GroupWriter group = samples_->group(sample_group(sample.sample));
   write_steps(group.group("steps"), sample.steps, n_pairs_);
   write_own_rest(group, sample, rest_surfaces_);

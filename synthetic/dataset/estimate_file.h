@@ -31,8 +31,8 @@ public:
   /// the file is a part.
   EstimateWriter(const std::filesystem::path &file, const Estimate &description,
                  const std::vector<EstimateSurface> &rest_surfaces, const EstimatePart *part = nullptr);
-  /// Runs in ascending order. Throws ComputationError for a run that does not ascend, has other organs or triangles
-  /// than the rest surfaces, or not one position a step.
+  /// Runs in ascending order. Throws ComputationError for a run that does not ascend, has another rest surface
+  /// (other points are allowed when surfaces are perturbed), or not one position a step.
   void add(const EstimateSample &sample);
   /// The file appears under its name.
   void finish();
@@ -41,6 +41,7 @@ private:
   StoreWriter file_;
   std::vector<EstimateSurface> rest_surfaces_;
   std::size_t n_pairs_;
+  bool moves_surfaces_;
   std::vector<std::int32_t> numbers_;
   std::optional<GroupWriter> samples_;
 };

@@ -175,8 +175,15 @@ TEST(Writer, RefusesAFolderThatDoesNotExist)
 TEST(Writer, RefusesSamplesOnDifferentRestSurfaces)
 {
   const ScratchFolder folder;
-  Estimate estimate = sample_estimate();
+  Estimate estimate = sample_estimate(); // whose surfaces are perturbed
+  estimate.perturbation.kind = "modulus";
+  estimate.samples[1].surfaces[1].rest = estimate.samples[0].surfaces[1].rest;
+  save(estimate, folder / "estimate.h5");
   estimate.samples[1].surfaces[0].rest.points(0, 0) += 1e-12;
+  EXPECT_THROW(save(estimate, folder / "estimate.h5"), ComputationError);
+  estimate.perturbation.kind = "surface";
+  save(estimate, folder / "estimate.h5");
+  estimate.samples[1].surfaces[0].rest.region[0] = 3 - estimate.samples[1].surfaces[0].rest.region[0];
   EXPECT_THROW(save(estimate, folder / "estimate.h5"), ComputationError);
 }
 } // namespace pelvireg::dataset::testing

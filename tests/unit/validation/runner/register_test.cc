@@ -174,18 +174,25 @@ TEST(RunRegistration, PlaysEachPositionThreeTimesAndFollowsTheOutline)
   }
 }
 
+/// Of the vagina's corner at x = -11, 11 mm off the image plane, a node of the patch that the support holds.
+double corner_motion(const std::string &condition)
+{
+  const dataset::EstimateSurface vagina = run_cubes(condition, 0, 1).samples[0].surfaces[1];
+  for (Eigen::Index node = 0; node < vagina.rest.points.rows(); ++node)
+    if ((vagina.rest.points.row(node) - Eigen::RowVector3d(-11, 20, 40)).norm() < 1e-9)
+      return vagina.positions.back()(node, 1) - 20;
+  return std::nan("");
+}
+
 TEST(RunRegistration, WithoutBoundaryConditionsTheSupportDoesNotHold)
 {
-  // The vagina's corner at x = -11, 11 mm off the image plane, is a node of the patch that the support holds.
-  const auto corner_motion = [](const std::string &condition)
-  {
-    const dataset::EstimateSurface vagina = run_cubes(condition, 0, 1).samples[0].surfaces[1];
-    for (Eigen::Index node = 0; node < vagina.rest.points.rows(); ++node)
-      if ((vagina.rest.points.row(node) - Eigen::RowVector3d(-11, 20, 40)).norm() < 1e-9)
-        return vagina.positions.back()(node, 1) - 20;
-    return std::nan("");
-  };
   EXPECT_LT(corner_motion("full"), 0.8 * corner_motion("no_boundary_conditions"));
+}
+
+TEST(RunRegistration, WithoutLigamentsTheSupportDoesNotHoldEither)
+{
+  // It is all that holds these cubes, which are too far apart to touch.
+  EXPECT_NEAR(corner_motion("no_ligaments"), corner_motion("no_boundary_conditions"), 1e-6);
 }
 
 TEST(RunRegistration, KeepsOrgansApartUnlessTheConditionHasNoContact)
@@ -242,14 +249,6 @@ TEST(RunRegistration, RandomisedRunsDifferFromTheNominalOneAndFromEachOther)
   const dataset::Estimate estimate = run_cubes("full", 2, 1);
   for (const auto &[a, b] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}})
     EXPECT_NE(estimate.samples[a].surfaces[1].positions.back(), estimate.samples[b].surfaces[1].positions.back());
-}
-
-TEST(RunRegistration, TakingTheLigamentsAwayFreesWhatTheyHeld)
-{
-  const auto motion = [](const std::string &condition)
-  { return run_cubes(condition, 0, 1).samples[0].surfaces[1].positions.back().col(1).mean(); };
-  EXPECT_GT(motion("no_ligaments"), motion("full") + 0.05);
-  EXPECT_NEAR(motion("no_ligaments"), motion("no_boundary_conditions"), 1e-6);
 }
 
 TEST(RunRegistration, EveryPerturbationChangesRandomisedRunsAloneAndIsDrawnBySeedAndNumber)
