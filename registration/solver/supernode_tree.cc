@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -53,7 +54,13 @@ public:
     pattern.dtype = CHOLMOD_DOUBLE;
     pattern.sorted = 1;
     pattern.packed = 1;
-    factor_ = cholmod_analyze(&pattern, &common_);
+    {
+      // METIS, behind nested dissection, draws from the C library's rand(), which it seeds itself: two analyses at once
+      // would share the sequence, and the order would depend on their timing.
+      static std::mutex one_at_a_time;
+      const std::lock_guard lock(one_at_a_time);
+      factor_ = cholmod_analyze(&pattern, &common_);
+    }
     if (factor_ && factor_->is_super)
       return;
     release();
