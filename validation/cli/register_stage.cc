@@ -207,6 +207,7 @@ std::vector<RegisterRequest> requests_of(const std::vector<std::string> &conditi
 
 void make_estimate(ResultDirectory &directory, const RegisterRequest &request, int jobs)
 {
+  const std::filesystem::path parts = parts_folder(directory, label_of(request));
   const auto work = [&](Progress &progress) -> Notes
   {
     const runner::RegistrationRuns runs = runs_of(directory, request);
@@ -216,8 +217,17 @@ void make_estimate(ResultDirectory &directory, const RegisterRequest &request, i
     store.assemble(numbers, directory.path() / ("estimate-" + label_of(request) + ".h5"));
     return to_notes(store.nominal_step_ms());
   };
-  directory.run(stage_of(request, work));
-  std::filesystem::remove_all(parts_folder(directory, label_of(request))); // now that the manifest knows the estimate
+  try
+  {
+    directory.run(stage_of(request, work));
+  }
+  catch (const InputError &)
+  {
+    if (std::filesystem::is_directory(parts) && std::filesystem::is_empty(parts))
+      std::filesystem::remove(parts);
+    throw;
+  }
+  std::filesystem::remove_all(parts); // now that the manifest knows the estimate
 }
 
 void make_shard(ResultDirectory &directory, const RegisterRequest &request, const runner::Shard &shard, int jobs)

@@ -73,7 +73,6 @@ void PartStore::remove(const std::vector<int> &runs) const
   std::error_code ignored;
   for (const int run : runs)
     std::filesystem::remove(file_of(run), ignored);
-  std::filesystem::remove(folder_, ignored); // only when it is empty
 }
 
 bool is_from(const EstimateReader &part, const dataset::Estimate &description, const dataset::EstimatePart &origin)

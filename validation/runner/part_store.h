@@ -28,7 +28,7 @@ public:
   /// All of `runs` as one file: a part of the estimate when `part` is given, else the whole.
   void assemble(const std::vector<int> &runs, const std::filesystem::path &file,
                 const dataset::EstimatePart *part = nullptr) const;
-  /// Remove these runs, and the folder when nothing is left in it.
+  /// Remove these runs. The folder stays: other processes may be about to write in it.
   void remove(const std::vector<int> &runs) const;
 
 private:
