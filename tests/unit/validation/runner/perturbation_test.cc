@@ -126,7 +126,8 @@ TEST(Perturbed, LeavesTheNominalRunAlone)
 TEST(OutlineNoise, LiesInThePlaneWithTheStatedDeviationAndIndependentFramesAndPoints)
 {
   const dataset::Observations given = observations();
-  double squares = 0, between_frames = 0, between_points = 0;
+  const Eigen::Vector3d first = given.dyn_plane.normal.unitOrthogonal(), second = given.dyn_plane.normal.cross(first);
+  double along_first = 0, along_second = 0, across = 0, between_frames = 0, between_points = 0;
   int n = 0;
   for (int sample = 1; sample <= 20; ++sample)
   {
@@ -138,14 +139,18 @@ TEST(OutlineNoise, LiesInThePlaneWithTheStatedDeviationAndIndependentFramesAndPo
         { return dataset::Points(own.frames[f].control_points[organ] - given.frames[f].control_points[organ]); };
         const dataset::Points noise = noise_of(frame), other = noise_of((frame + 1) % 5);
         EXPECT_LE((noise * given.dyn_plane.normal).cwiseAbs().maxCoeff(), 1e-12);
-        squares += noise.squaredNorm();
+        along_first += (noise * first).squaredNorm();
+        along_second += (noise * second).squaredNorm();
+        across += (noise * first).dot(noise * second);
         between_frames += noise.cwiseProduct(other).sum();
         between_points += noise.topRows(39).cwiseProduct(noise.bottomRows(39)).sum();
         n += 40;
       }
   }
   const double variance = 0.8 * 0.8, standard_error = variance * std::sqrt(2.0 / n);
-  EXPECT_NEAR(squares / n, 2 * variance, 4 * std::sqrt(2.0) * standard_error); // two axes
+  for (const double squares : {along_first, along_second})
+    EXPECT_NEAR(squares / n, variance, 4 * standard_error);
+  EXPECT_NEAR(across / n, 0, 4 * standard_error);
   EXPECT_NEAR(between_frames / n, 0, 4 * standard_error);
   EXPECT_NEAR(between_points / n, 0, 4 * standard_error);
 }
