@@ -1,2 +1,2 @@
 # The built-in cases, in the order in which `pelvireg cases` lists them: one file NAME.toml each.
-set(built_in_cases t005 t005_large quick)
+set(built_in_cases t005 t005_large t007 t007_large quick)
