@@ -169,7 +169,9 @@ TEST(CaseFile, ListsTheBuiltInCases)
   std::vector<std::string> names;
   for (const anatomy::CaseSummary &summary : anatomy::built_in_cases())
     names.push_back(summary.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"t005", "t005_large", "t007", "t007_large", "quick"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"t005", "t005_large", "t007", "t007_large", "quick", "t005_half_stiffness",
+                                             "t005_double_stiffness", "t005_neo_hookean", "t005_moved_insertions",
+                                             "t005_leaking"}));
 }
 
 TEST(CaseFile, WithABaseIsThatCaseWithItsOwnValuesInPlace)
