@@ -176,7 +176,7 @@ std::string EquilibriumSystem::worst_row() const
 {
   int worst = -1;
   double largest = -1;
-  for (int i = 0; i < n_unknowns(); ++i)
+  for (int i = 0; i < n_unknowns() && std::isfinite(largest); ++i)
     if (!is_fixed_[i] && !(std::abs(residual_[i]) / residual_scale_[i] <= largest))
     {
       worst = i;

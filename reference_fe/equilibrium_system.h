@@ -57,7 +57,7 @@ public:
   double residual_norm() const;
   /// Root of the sum of squares of the same: a smoother merit for line searches.
   double residual_merit() const;
-  /// The free row with the largest scaled residual, in words: "displacement 123".
+  /// The free row with the largest scaled residual, or the first that is not finite, in words: "displacement 123".
   std::string worst_row() const;
 
   /// Factorise the last assembled tangent (free rows and columns). False: singular or not finite.

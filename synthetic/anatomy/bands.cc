@@ -121,7 +121,9 @@ void add_bands(const Parameters &parameters, dataset::RegistrationModel &model)
           continue;
         const auto organ = std::find_if(model.bodies.begin(), model.bodies.end(),
                                         [&](const RegistrationBody &b) { return b.name == support.organ; });
-        Band band = make_band(support, support_patches(support, left, parameters), *organ);
+        SupportPatches patches = support_patches(support, left, parameters);
+        patches.organ_point += parameters.insertion_shift.cwiseProduct(Vector3d(left ? 1 : -1, 1, 1));
+        Band band = make_band(support, patches, *organ);
         if (!(least_jacobian(band) > 0))
           throw InputError(
               fmt::format("Support {} ({}): its band folds where it meets the {} (least corner Jacobian {:.3g} "

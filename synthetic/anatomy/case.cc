@@ -34,7 +34,8 @@ std::vector<CaseSummary> built_in_cases()
 {
   std::vector<CaseSummary> cases;
   for (const BuiltInCase &built_in : built_in_case_texts())
-    cases.push_back({built_in.name, read_parameters(built_in.text, built_in.name).description});
+    cases.push_back(
+        {built_in.name, read_parameters(with_base(built_in.text, built_in.name), built_in.name).description});
   return cases;
 }
 
@@ -44,7 +45,7 @@ std::string case_text(const std::string &name_or_path)
   for (const BuiltInCase &built_in : built_in_case_texts())
   {
     if (built_in.name == name_or_path)
-      return built_in.text;
+      return with_base(built_in.text, built_in.name);
     names += (names.empty() ? "" : ", ") + std::string(built_in.name);
   }
   if (!name_or_path.ends_with(".toml"))
@@ -56,7 +57,7 @@ std::string case_text(const std::string &name_or_path)
     throw InputError(
         fmt::format("The case file '{}' cannot be read; check that it exists and may be read, or give one of {}.",
                     name_or_path, names));
-  return text.str();
+  return with_base(text.str(), name_or_path);
 }
 
 dataset::Anatomy build_anatomy(const std::string &text, const std::string &case_name)

@@ -18,12 +18,17 @@ struct CaseSummary
 /// The built-in cases in the order in which `pelvireg cases` lists them.
 std::vector<CaseSummary> built_in_cases();
 
-/// The text of a case file: a built-in name ("t005", "quick") or a path to a .toml file.
-/// Throws InputError for an unknown name or an unreadable file.
+/// The whole text of a case: a built-in name ("t005", "quick") or a path to a .toml file, its base filled in.
+/// Throws InputError for an unknown name, an unreadable file and what with_base() refuses.
 std::string case_text(const std::string &name_or_path);
 
-/// The case with one value replaced or added: `key` is a dotted path ("reference.shell_size", "cavity.bladder"), `value`
-/// TOML ("6.6", "{mode = 'open'}"). Comments are lost. Throws InputError for a text or value that is not TOML.
+/// A case that says `base = "t005"` is that built-in case with what it says itself put in its place: tables key by key,
+/// arrays of tables ([[support]]) by their `name`, all else as a whole. Returns the whole case (comments are lost), or
+/// the text as it is when it names no base. Throws InputError for a text that is not TOML and for an unknown base.
+std::string with_base(const std::string &text, const std::string &case_name);
+
+/// The case with one value replaced or added: `key` is a dotted path ("reference.shell_size", "cavity.bladder"),
+/// `value` TOML ("6.6", "{mode = 'open'}"). Comments are lost. Throws InputError for a text or value that is not TOML.
 std::string with_value(const std::string &text, const std::string &case_name, const std::string &key,
                        const std::string &value);
 

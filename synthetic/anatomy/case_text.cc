@@ -1,9 +1,11 @@
+#include "synthetic/anatomy/built_in_cases.h"
 #include "synthetic/anatomy/case.h"
 #include "synthetic/dataset/error.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace pelvireg::anatomy
@@ -34,7 +36,62 @@ std::string description_of(const std::string &case_name)
 {
   return "Case '" + case_name + "'";
 }
+
+void merge(toml::table &base, const toml::table &changes);
+
+/// Tables with a name change the table of the same name, or follow at the end.
+void merge_named(toml::array &base, const toml::array &changes)
+{
+  for (const toml::node &change : changes)
+  {
+    const auto name = change.as_table()->get_as<std::string>("name");
+    const auto same = std::find_if(base.begin(), base.end(),
+                                   [&](const toml::node &entry)
+                                   { return name && entry.is_table() && entry.as_table()->at_path("name") == *name; });
+    if (same == base.end())
+      base.push_back(*change.as_table());
+    else
+      merge(*same->as_table(), *change.as_table());
+  }
+}
+
+void merge(toml::table &base, const toml::table &changes)
+{
+  for (const auto &[key, value] : changes)
+  {
+    toml::node *present = base.get(key);
+    if (present && present->is_table() && value.is_table())
+      merge(*present->as_table(), *value.as_table());
+    else if (present && present->is_array_of_tables() && value.is_array_of_tables())
+      merge_named(*present->as_array(), *value.as_array());
+    else
+      base.insert_or_assign(key, value);
+  }
+}
 } // namespace
+
+std::string with_base(const std::string &text, const std::string &case_name)
+{
+  const toml::table changes = parsed(text, description_of(case_name));
+  if (!changes.contains("base"))
+    return text;
+  const auto base_name = changes["base"].value<std::string>();
+  std::string names;
+  for (const BuiltInCase &built_in : built_in_case_texts())
+  {
+    if (base_name == built_in.name && base_name != case_name)
+    {
+      toml::table document = parsed(with_base(built_in.text, built_in.name), description_of(built_in.name));
+      merge(document, changes);
+      document.erase("base");
+      return written(document);
+    }
+    names += (names.empty() ? "" : ", ") + std::string(built_in.name);
+  }
+  throw InputError(fmt::format("{}: base is {}, but the name of another built-in case is needed ({}); correct it or "
+                               "write the whole case without base.",
+                               description_of(case_name), base_name ? "'" + *base_name + "'" : "not a string", names));
+}
 
 std::string with_value(const std::string &text, const std::string &case_name, const std::string &key,
                        const std::string &value)

@@ -227,6 +227,8 @@ void read_registration(TableReader table, Parameters &parameters)
   parameters.time_step = table.number("time_step", {0, 10, true});
   parameters.steps_per_increment = table.integer("steps_per_increment", 1, 100);
   parameters.n_control_points = table.integer("n_control_points", 10, 1000);
+  if (table.has("insertion_shift"))
+    parameters.insertion_shift = table.point("insertion_shift", {-20, 20, false});
   TableReader nodes = table.table("nodes"), moduli = table.table("youngs_modulus");
   for (const std::string &body : registration_bodies)
   {

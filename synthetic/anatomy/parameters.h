@@ -81,6 +81,9 @@ struct Parameters
   Eigen::Vector3d plane_centre;
   double target_displacement = 0;
   int n_increments = 15, n_control_points = 70, steps_per_increment = 3;
+  /// mm, from where a ligament or fascia really meets its organ (left side; mirrored in x on the right) to where the
+  /// registration believes it does.
+  Eigen::Vector3d insertion_shift = Eigen::Vector3d::Zero();
   double time_step = 0.02, slice_pitch = 6;
   int n_slices_each_side = 7;
 

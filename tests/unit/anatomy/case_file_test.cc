@@ -10,10 +10,10 @@ namespace pelvireg::test
 {
 namespace
 {
-/// The quick case with one piece of text replaced.
+/// Case t005 with one piece of text replaced.
 std::string altered(const std::string &from, const std::string &to)
 {
-  std::string text = anatomy::case_text("quick");
+  std::string text = anatomy::case_text("t005");
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
@@ -78,7 +78,7 @@ TEST(CaseFile, RefusesAMissingKey)
 TEST(CaseFile, RefusesAWrongType)
 {
   expect_complaint(altered("tilt = 3.0", "tilt = \"three\""), {"plane.tilt", "a string", "number"});
-  expect_complaint(altered("n_increments = 8", "n_increments = 1.5"), {"load.n_increments", "1.5", "integer"});
+  expect_complaint(altered("n_increments = 15", "n_increments = 1.5"), {"load.n_increments", "1.5", "integer"});
   expect_complaint(altered("far_point = [0.0, 5.0, -6.0]", "far_point = [0.0, 5.0]"),
                    {"urethra.far_point", "3 numbers", "array of 2"});
 }
@@ -141,7 +141,7 @@ TEST(CaseFile, RefusesOrgansThatOverlap)
 
 TEST(CaseFile, RefusesNodeCountsThatNoMeshHas)
 {
-  expect_complaint(altered("bladder = 196", "bladder = 122"), {"registration.nodes.bladder", "122", "nearest"});
+  expect_complaint(altered("bladder = 806", "bladder = 122"), {"registration.nodes.bladder", "122", "nearest"});
 }
 
 TEST(CaseFile, RefusesBrokenTomlWithItsLine)
@@ -158,16 +158,61 @@ TEST(CaseFile, RefusesAnUnknownNameAndListsTheBuiltInOnes)
   }
   catch (const InputError &error)
   {
-    EXPECT_NE(std::string(error.what()).find("t005, quick"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("t005, t005_large, t007, t007_large, quick"), std::string::npos)
+        << error.what();
   }
   EXPECT_THROW(anatomy::case_text("/nowhere/at/all.toml"), InputError);
 }
 
 TEST(CaseFile, ListsTheBuiltInCases)
 {
-  ASSERT_EQ(anatomy::built_in_cases().size(), 2u);
-  EXPECT_EQ(anatomy::built_in_cases()[0].name, "t005");
-  EXPECT_EQ(anatomy::built_in_cases()[1].name, "quick");
+  std::vector<std::string> names;
+  for (const anatomy::CaseSummary &summary : anatomy::built_in_cases())
+    names.push_back(summary.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"t005", "t005_large", "t007", "t007_large", "quick", "t005_half_stiffness",
+                                             "t005_double_stiffness", "t005_neo_hookean", "t005_moved_insertions",
+                                             "t005_leaking"}));
+}
+
+TEST(CaseFile, WithABaseIsThatCaseWithItsOwnValuesInPlace)
+{
+  const std::string changes = "base = \"t005\"\nname = \"mine\"\n[load]\ntarget_displacement = 4.0\n"
+                              "[[support]]\nname = \"round\"\narea_left = 9.0\n";
+  std::string expected = altered("name = \"t005\"", "name = \"mine\"");
+  for (const auto &[from, to] : {std::pair{"target_displacement = 8.2", "target_displacement = 4.0"},
+                                 std::pair{"area_left = 5.0", "area_left = 9.0"}})
+    expected.replace(expected.find(from), std::string(from).size(), to);
+  const auto canonical = [](const std::string &text) { return anatomy::with_value(text, "mine", "name", "'mine'"); };
+  EXPECT_EQ(canonical(anatomy::with_base(changes, "mine")), canonical(expected));
+  EXPECT_EQ(anatomy::with_base(expected, "mine"), expected); // no base: as it is, comments included
+}
+
+TEST(CaseFile, WithABaseAppendsTablesOfANewName)
+{
+  const std::string text = anatomy::with_base("base = \"t005\"\n[[support]]\nname = \"new\"\n", "mine");
+  EXPECT_NE(text.find("'round'"), std::string::npos);
+  EXPECT_NE(text.find("'new'"), std::string::npos);
+}
+
+TEST(CaseFile, RefusesABaseThatIsNoOtherCase)
+{
+  const auto complaint_about = [](const std::string &text, const std::string &name)
+  {
+    try
+    {
+      anatomy::with_base(text, name);
+    }
+    catch (const InputError &error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(complaint_about("base = \"t004\"", "mine").find("'t004'"), std::string::npos);
+  EXPECT_NE(complaint_about("base = \"t004\"", "mine").find("t005, t005_large, t007, t007_large, quick"),
+            std::string::npos);
+  EXPECT_NE(complaint_about("base = 5", "mine").find("not a string"), std::string::npos);
+  EXPECT_NE(complaint_about("base = \"t005\"", "t005").find("another built-in case"), std::string::npos);
 }
 } // namespace
 } // namespace pelvireg::test
