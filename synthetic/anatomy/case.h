@@ -3,6 +3,7 @@
 
 #include "synthetic/dataset/anatomy.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ std::string with_value(const std::string &text, const std::string &case_name, co
 /// What the reference solver's problem depends on, in one canonical form: without comments, name, description and
 /// everything that only observation and registration read. Equal texts give equal truths. Throws InputError.
 std::string reference_text(const std::string &text, const std::string &case_name);
+
+/// The case whose outlines drive the registration that makes this case's truth (an inverse crime: the paper's Figure
+/// 7), when the case says `self_generated_from = "t005_large"`. Throws InputError for a text that is not TOML.
+std::optional<std::string> self_generated_from(const std::string &text, const std::string &case_name);
 
 /// The value of a number of the case, by its dotted path. Throws InputError when there is none.
 double number_in_case(const std::string &text, const std::string &case_name, const std::string &key);

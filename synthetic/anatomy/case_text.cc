@@ -6,6 +6,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 namespace pelvireg::anatomy
@@ -129,6 +130,11 @@ std::string reference_text(const std::string &text, const std::string &case_name
         for (const char *key : {"body", "kind", "band_cells"})
           table->erase(key);
   return written(document);
+}
+
+std::optional<std::string> self_generated_from(const std::string &text, const std::string &case_name)
+{
+  return parsed(text, description_of(case_name))["self_generated_from"].value<std::string>();
 }
 
 double number_in_case(const std::string &text, const std::string &case_name, const std::string &key)

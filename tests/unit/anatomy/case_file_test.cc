@@ -158,7 +158,8 @@ TEST(CaseFile, RefusesAnUnknownNameAndListsTheBuiltInOnes)
   }
   catch (const InputError &error)
   {
-    EXPECT_NE(std::string(error.what()).find("t005, t005_large, t007, t007_large, quick"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("t005, t005_large, t007, t007_large, t005_selfgen, quick"),
+              std::string::npos)
         << error.what();
   }
   EXPECT_THROW(anatomy::case_text("/nowhere/at/all.toml"), InputError);
@@ -169,9 +170,9 @@ TEST(CaseFile, ListsTheBuiltInCases)
   std::vector<std::string> names;
   for (const anatomy::CaseSummary &summary : anatomy::built_in_cases())
     names.push_back(summary.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"t005", "t005_large", "t007", "t007_large", "quick", "t005_half_stiffness",
-                                             "t005_double_stiffness", "t005_neo_hookean", "t005_moved_insertions",
-                                             "t005_leaking"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"t005", "t005_large", "t007", "t007_large", "t005_selfgen", "quick",
+                                             "t005_half_stiffness", "t005_double_stiffness", "t005_neo_hookean",
+                                             "t005_moved_insertions", "t005_leaking"}));
 }
 
 TEST(CaseFile, WithABaseIsThatCaseWithItsOwnValuesInPlace)
@@ -209,7 +210,7 @@ TEST(CaseFile, RefusesABaseThatIsNoOtherCase)
     return std::string();
   };
   EXPECT_NE(complaint_about("base = \"t004\"", "mine").find("'t004'"), std::string::npos);
-  EXPECT_NE(complaint_about("base = \"t004\"", "mine").find("t005, t005_large, t007, t007_large, quick"),
+  EXPECT_NE(complaint_about("base = \"t004\"", "mine").find("t005, t005_large, t007, t007_large, t005_selfgen, quick"),
             std::string::npos);
   EXPECT_NE(complaint_about("base = 5", "mine").find("not a string"), std::string::npos);
   EXPECT_NE(complaint_about("base = \"t005\"", "t005").find("another built-in case"), std::string::npos);
