@@ -6,6 +6,7 @@
 #include "synthetic/dataset/error.h"
 #include "synthetic/observation/observe.h"
 #include "validation/cli/register_stage.h"
+#include "validation/cli/self_generated_stage.h"
 #include "validation/cli/sha256.h"
 #include "validation/cli/studies.h"
 #include "validation/runner/condition_table.h"
@@ -96,6 +97,8 @@ void make_truth(ResultDirectory &directory, int jobs, const std::string &log_fil
   {
     std::ostringstream text;
     text << std::ifstream(directory.path() / "case.toml", std::ios::binary).rdbuf();
+    if (const auto driver = anatomy::self_generated_from(text.str(), "case.toml"))
+      return make_self_generated_truth(directory, *driver, jobs);
     error_bar = known_discretisation_error(text.str(), "case.toml");
   }
   directory.run({.name = "reference",
@@ -155,8 +158,8 @@ void make_errors(ResultDirectory &directory, int jobs)
        .options = options,
        .inputs = inputs,
        .outputs = {"errors_by_step.csv", "errors_by_slice.csv", "metrics_by_step.csv", "errors_by_distance.csv",
-                   "curves_by_step.csv", "curves_by_slice.csv",
-                   "summary.json", "error_table.txt", "condition_table.txt"},
+                   "curves_by_step.csv", "curves_by_slice.csv", "summary.json", "error_table.txt",
+                   "condition_table.txt"},
        .work = [&](Progress &progress) -> Notes
        {
          const runner::Evaluation evaluation = judge(directory, jobs, progress).evaluation;
