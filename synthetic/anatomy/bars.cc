@@ -1,13 +1,10 @@
 // Bars of the reference: supports spread over their patches, urethra, membrane of the hiatus.
+#include "synthetic/anatomy/bar_ends.h"
 #include "synthetic/anatomy/reference_parts.h"
 
-#include "synthetic/dataset/error.h"
-
 #include <Eigen/Geometry>
-#include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <set>
 
@@ -20,51 +17,23 @@ using Eigen::Vector3d;
 
 namespace
 {
-/// Nodes of a part on its outer surface: all of a shell's, those of the boundary of the solid.
-std::vector<std::int32_t> surface_nodes(const ReferenceModel &model, const std::string &part, Points &points)
+/// Share a bar out over the nodes around its end: parallel bars whose sections add up to its own.
+void append(const ReferenceTruss &bar, const BarEnd &end, const BarSurface &surface, std::vector<ReferenceTruss> &bars)
 {
-  std::set<std::int32_t> nodes;
-  for (const dataset::ReferenceShell &shell : model.shells)
-    if (shell.name == part)
-    {
-      points = shell.midsurface;
-      for (Eigen::Index i = 0; i < points.rows(); ++i)
-        nodes.insert(static_cast<std::int32_t>(i));
-    }
-  for (const dataset::ReferenceSolid &solid : model.solids)
-    if (solid.name == part)
-    {
-      points = solid.points;
-      nodes.insert(solid.faces.data(), solid.faces.data() + solid.faces.size());
-    }
-  return {nodes.begin(), nodes.end()};
-}
-
-/// The nearest node that is not taken yet; -1 when all are.
-std::int32_t nearest(const Points &points, const std::vector<std::int32_t> &nodes, const Vector3d &target,
-                     const std::set<std::int32_t> &taken)
-{
-  std::int32_t best = -1;
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::int32_t node : nodes)
+  for (const auto &[node, weight] : end.nodes)
   {
-    const double distance = (points.row(node).transpose() - target).squaredNorm();
-    if (distance < least && taken.count(node) == 0)
-    {
-      least = distance;
-      best = node;
-    }
+    bars.push_back(bar);
+    bars.back().node_a = node;
+    bars.back().fixed_point += surface.node(node) - end.position;
+    bars.back().area *= weight;
   }
-  return best;
 }
 
 void add_support(const Parameters &p, const Support &support, bool left, const ReferenceModel &model,
                  std::vector<ReferenceTruss> &bars)
 {
   const SupportPatches patches = support_patches(support, left, p);
-  Points points;
-  const std::vector<std::int32_t> nodes = surface_nodes(model, support.organ, points);
-  std::set<std::int32_t> taken;
+  const BarSurface surface(model, support.organ);
   // A sheet of tissue resists shear, parallel bars do not: the bars of a fascia lean to either side by turns.
   const Vector3d along = patches.far_point - patches.organ_point;
   const Vector3d brace = 0.5 * along.norm() * along.cross(patches.organ_span).normalized();
@@ -74,34 +43,26 @@ void add_support(const Parameters &p, const Support &support, bool left, const R
     ReferenceTruss bar;
     bar.group = support.name + (left ? "_left" : "_right");
     bar.part_a = support.organ;
-    bar.node_a = nearest(points, nodes, patches.organ_point + s * patches.organ_span, taken);
-    if (bar.node_a < 0)
-      throw InputError(
-          fmt::format("Support {}: {} bars need as many nodes, but {} has {}; lower n_bars or refine the mesh.",
-                      support.name, support.n_bars, support.organ, nodes.size()));
-    taken.insert(bar.node_a);
     bar.fixed_point = patches.far_point + s * patches.far_span;
     if (support.kind == "fascia" || support.material == "fascia")
       bar.fixed_point += (i % 2 == 0 ? brace : -brace);
     bar.area = patches.area / support.n_bars;
     bar.material = support.material;
     bar.tension_only = support.tension_only;
-    bars.push_back(bar);
+    append(bar, surface.closest(patches.organ_point + s * patches.organ_span), surface, bars);
   }
 }
 
 /// The bladder neck hangs on the urethra: parallel bars on a ring around its axis.
 void add_urethra(const Parameters &p, const ReferenceModel &model, std::vector<ReferenceTruss> &bars)
 {
-  Points points;
-  const std::vector<std::int32_t> nodes = surface_nodes(model, "bladder", points);
+  const BarSurface surface(model, "bladder");
   // The neck is the point of the bladder farthest along the drawn-out direction.
   const Vector3d neck_direction = p.bladder.neck_direction.normalized();
   const Vector3d neck =
       p.bladder.centre + p.bladder.semi_axes.cwiseProduct(neck_direction) + p.bladder.neck_length * neck_direction;
   const Vector3d axis = (neck - p.urethra_far).normalized(), u = Vector3d::UnitX().cross(axis).normalized(),
                  v = axis.cross(u);
-  std::set<std::int32_t> taken;
   for (int i = 0; i < p.urethra_bars; ++i)
   {
     const double angle = 2 * std::numbers::pi * i / p.urethra_bars;
@@ -109,14 +70,12 @@ void add_urethra(const Parameters &p, const ReferenceModel &model, std::vector<R
     ReferenceTruss bar;
     bar.group = "urethra";
     bar.part_a = "bladder";
-    bar.node_a = nearest(points, nodes, neck + ring, taken);
-    taken.insert(bar.node_a);
     // Twisted by turns, so that the bars brace each other as the wall of a tube does.
     const double far_angle = angle + (i % 2 == 0 ? 1 : -1) * std::numbers::pi / 3;
-    bar.fixed_point = p.urethra_far + p.urethra_radius * (std::cos(far_angle) * u + std::sin(far_angle) * v);
+    bar.fixed_point = p.urethra_far + p.urethra_far_radius * (std::cos(far_angle) * u + std::sin(far_angle) * v);
     bar.area = p.urethra_area / p.urethra_bars;
     bar.material = p.material_of.at("urethra");
-    bars.push_back(bar);
+    append(bar, surface.closest(neck + ring), surface, bars);
   }
 }
 
@@ -141,7 +100,16 @@ void add_retropubic(const Parameters &p, const ReferenceModel &model, std::vecto
     bars[b].area = p.retropubic_area / static_cast<double>(bars.size() - first);
 }
 
-/// From every node of the hiatus to the nearest node of vagina and anal canal within reach.
+/// Length of a closed loop that falls to its node i, mm.
+double tributary_length(const dataset::Integers &loop, Eigen::Index i, const Points &points)
+{
+  const Eigen::Index n = loop.size();
+  const auto distance = [&](Eigen::Index j)
+  { return (points.row(loop[(i + j + n) % n]) - points.row(loop[i])).norm(); };
+  return 0.5 * (distance(-1) + distance(1));
+}
+
+/// From the rim of the hiatus to the closest points of vagina and anal canal within reach.
 void add_hiatus(const Parameters &p, const ReferenceModel &model, std::vector<ReferenceTruss> &bars)
 {
   const dataset::ReferenceShell *floor = nullptr;
@@ -149,21 +117,20 @@ void add_hiatus(const Parameters &p, const ReferenceModel &model, std::vector<Re
     if (shell.name == "pelvic_floor")
       floor = &shell;
   const std::set<std::int32_t> fixed(floor->fixed_nodes.data(), floor->fixed_nodes.data() + floor->fixed_nodes.size());
-  for (const dataset::Integers &loop : boundary_loops(floor->cells))
+  for (const std::string organ : {"vagina", "rectum"})
   {
-    if (fixed.count(loop[0]) > 0)
-      continue;
-    for (Eigen::Index i = 0; i < loop.size(); ++i)
-      for (const std::string organ : {"vagina", "rectum"})
+    const BarSurface surface(model, organ);
+    for (const dataset::Integers &loop : boundary_loops(floor->cells))
+      for (Eigen::Index i = 0; i < loop.size() && fixed.count(loop[0]) == 0; ++i)
       {
-        Points points;
-        const std::vector<std::int32_t> nodes = surface_nodes(model, organ, points);
         const Vector3d from = floor->midsurface.row(loop[i]).transpose();
-        const std::int32_t node = nearest(points, nodes, from, {});
-        if ((points.row(node).transpose() - from).norm() > p.hiatus_reach)
+        const BarEnd end = surface.closest(from);
+        if ((end.position - from).norm() > p.hiatus_reach)
           continue;
-        bars.push_back({"hiatus", "pelvic_floor", loop[i], organ, node, Vector3d::Zero(), p.hiatus_area,
-                        p.material_of.at("hiatus")});
+        const double area = p.hiatus_area_per_length * tributary_length(loop, i, floor->midsurface);
+        for (const auto &[node, weight] : end.nodes)
+          bars.push_back({"hiatus", "pelvic_floor", loop[i], organ, node, Vector3d::Zero(), weight * area,
+                          p.material_of.at("hiatus")});
       }
   }
 }

@@ -270,10 +270,11 @@ void read_urethra_and_hiatus(TableReader urethra, TableReader membrane, Paramete
   parameters.urethra_far = urethra.point("far_point");
   parameters.urethra_area = urethra.number("area", positive);
   parameters.urethra_radius = urethra.number("radius", positive);
+  parameters.urethra_far_radius = urethra.number("far_radius", positive);
   parameters.urethra_bars = urethra.integer("n_bars", 8, 200);
   urethra.finish();
   parameters.hiatus_reach = membrane.number("reach", positive);
-  parameters.hiatus_area = membrane.number("area", positive);
+  parameters.hiatus_area_per_length = membrane.number("area_per_length", positive);
   membrane.finish();
 }
 } // namespace

@@ -103,12 +103,13 @@ struct Parameters
   std::vector<Support> supports;
   std::map<std::string, CavityFilling> cavities; ///< organs that the case names; the others are closed
 
-  Eigen::Vector3d urethra_far; ///< fixed distal end of the urethra
-  double urethra_area = 0, urethra_radius = 0;
+  Eigen::Vector3d urethra_far;                                         ///< fixed distal end of the urethra
+  double urethra_area = 0, urethra_radius = 0, urethra_far_radius = 0; ///< radii at the bladder and at the far end
   int urethra_bars = 0;
   Eigen::Vector3d retropubic_normal; ///< unit, from the symphysis towards the bladder
   double retropubic_depth = 0, retropubic_area = 0, retropubic_half_width = 0; ///< of the fatty space of Retzius
-  double hiatus_reach = 0, hiatus_area = 0; ///< longest bar of the perineal membrane; section of one bar
+  double hiatus_reach = 0;                                                     ///< longest bar of the perineal membrane
+  double hiatus_area_per_length = 0; ///< mm^2 of the membrane's section a mm of the hiatus' rim
 };
 
 /// Parse and check a case text. Throws InputError.
