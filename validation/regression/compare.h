@@ -38,14 +38,14 @@ struct FamilyComparison
   FamilyName name; ///< organ "all" for the failed steps
   bool is_steps = false;
   Verdict verdict = Verdict::pass;
-  std::vector<std::string> reasons;  ///< why the verdict is not PASS
-  std::vector<std::string> warnings; ///< what deserves a look and is no reason
-  std::vector<ComparedPoint> points; ///< empty when the family could not be compared
+  std::vector<std::string> reasons;           ///< why the verdict is not PASS
+  std::vector<std::string> warnings;          ///< what deserves a look and is no reason
+  std::vector<ComparedPoint> points;          ///< empty when the family could not be compared
   double baseline_mean = 0, current_mean = 0; ///< mm, of E over the randomised runs (the nominal one when it is alone)
-  std::optional<MeanBounds> average; ///< of the logarithm of the ratio of E
-  std::optional<MeanBounds> tail;    ///< of the largest 95th percentile of a curve
-  double pairing_correlation = 0;    ///< of E in the paired runs; 0 when they do not scatter
-  double largest_change = 0;         ///< relative, of any number of the family
+  std::optional<MeanBounds> average;          ///< of the logarithm of the ratio of E
+  std::optional<MeanBounds> tail;             ///< of the largest 95th percentile of a curve
+  double pairing_correlation = 0;             ///< of E in the paired runs; 0 when they do not scatter
+  double largest_change = 0;                  ///< relative, of any number of the family
 };
 
 struct Comparison

@@ -20,7 +20,7 @@ std::string to_string(Axis axis);
 /// Errors at one step or in one slice of one run; mm.
 struct CurvePoint
 {
-  int abscissa = 0; ///< step, 1-based, or slice index
+  int abscissa = 0;  ///< step, 1-based, or slice index
   double offset = 0; ///< mm, of a slice from the DYN plane; 0 of a step
   int n_points = 0;
   double mean = 0, sd = 0, p95 = 0, max = 0;

@@ -101,8 +101,9 @@ private:
       return;
     }
     if (bounds.lower > 0)
-      return verdict(Verdict::worse, fmt::format("{} {} ({} to {}), line {}", what, percent(bounds.mean),
-                                                 percent(bounds.lower), percent(bounds.upper), percent(std::log(line))));
+      return verdict(Verdict::worse,
+                     fmt::format("{} {} ({} to {}), line {}", what, percent(bounds.mean), percent(bounds.lower),
+                                 percent(bounds.upper), percent(std::log(line))));
     const double needed = std::ceil(std::pow(5.42 * bounds.sd / std::log(line), 2));
     verdict(Verdict::incomparable,
             fmt::format("{} {} to {}: {} runs cannot tell, about {:.0f} would", what, percent(bounds.lower),
@@ -119,7 +120,8 @@ private:
 
   void test_band()
   {
-    const auto n_runs = static_cast<Eigen::Index>(runs_.size()), n = static_cast<Eigen::Index>(paired_.abscissae.size());
+    const auto n_runs = static_cast<Eigen::Index>(runs_.size()),
+               n = static_cast<Eigen::Index>(paired_.abscissae.size());
     Eigen::MatrixXd ratios(n_runs, n);
     Eigen::VectorXd growth = Eigen::VectorXd::Zero(n); // mm
     for (Eigen::Index r = 0; r < n_runs; ++r)

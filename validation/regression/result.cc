@@ -168,8 +168,7 @@ ErrorResult load_result(const fs::path &directory, const Digest &digest)
     if (stage == "evaluate")
       result.revision = entry<std::string>(record, "revision", file);
   }
-  result.inputs =
-      entry<std::map<std::string, std::string>>(entry<json>(stages, "evaluate", file), "inputs", file);
+  result.inputs = entry<std::map<std::string, std::string>>(entry<json>(stages, "evaluate", file), "inputs", file);
   return result;
 }
 

@@ -30,13 +30,13 @@ struct ErrorResult
 {
   std::string label; ///< where it came from, as the user said it
   std::string case_name;
-  std::string case_text;                                       ///< case.toml
-  double surface_spacing = 0, contour_spacing = 0;             ///< mm, of the judge's points
-  Curves curves;                                               ///< by step and by slice
-  std::map<std::pair<std::string, int>, RunSteps> runs;        ///< by condition and sample, without `unregistered`
-  std::string revision, build;                                 ///< of the program
-  std::map<std::string, std::string> commands;                 ///< stage to command line
-  std::map<std::string, std::string> inputs;                   ///< name to SHA-256 of the HDF5 files behind the curves
+  std::string case_text;                                ///< case.toml
+  double surface_spacing = 0, contour_spacing = 0;      ///< mm, of the judge's points
+  Curves curves;                                        ///< by step and by slice
+  std::map<std::pair<std::string, int>, RunSteps> runs; ///< by condition and sample, without `unregistered`
+  std::string revision, build;                          ///< of the program
+  std::map<std::string, std::string> commands;          ///< stage to command line
+  std::map<std::string, std::string> inputs;            ///< name to SHA-256 of the HDF5 files behind the curves
 };
 
 /// What a current result is held against.
@@ -47,8 +47,8 @@ struct Baseline
 };
 
 /// Read an evaluated result directory: manifest.json, summary.json, case.toml and the two CSV files. Throws InputError
-/// with one sentence when a file is missing, is not what its stage wrote (SHA-256), was made from other files than those
-/// there now, has another format, version, unit or frame, or holds what read_curves refuses.
+/// with one sentence when a file is missing, is not what its stage wrote (SHA-256), was made from other files than
+/// those there now, has another format, version, unit or frame, or holds what read_curves refuses.
 ErrorResult load_result(const std::filesystem::path &directory, const Digest &digest);
 
 /// Read a baseline folder (baseline.json and the files it lists; anchor/ likewise), or a result directory in its place.

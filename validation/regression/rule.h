@@ -6,8 +6,8 @@
 
 namespace pelvireg::regression
 {
-/// Ratios are CURRENT over BASELINE of (error + floor_mm). E is the average of one run's curve over its steps or slices.
-/// Figures "on quick" are from 200 runs with moduli +-10 %; docs/regression.md says how to take them again.
+/// Ratios are CURRENT over BASELINE of (error + floor_mm). E is the average of one run's curve over its steps or
+/// slices. Figures "on quick" are from 200 runs with moduli +-10 %; docs/regression.md says how to take them again.
 struct Rule
 {
   /// mm, added to both errors of a ratio, so that an error of almost nothing does not make a large ratio. Far below the
