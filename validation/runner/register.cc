@@ -217,7 +217,9 @@ dataset::Estimate run_registration(const dataset::Anatomy &anatomy, const datase
                                    const std::string &condition, const RunnerOptions &options, StepTiming *timing)
 {
   require_usable(anatomy, observations, condition, options);
-  const Setup setup = set_up(anatomy, observations, condition);
+  Setup setup = set_up(anatomy, observations, condition);
+  if (options.mutation)
+    setup.options.mutation = *options.mutation;
   const int n_runs = options.samples + 1;
 
   dataset::Estimate estimate;

@@ -10,6 +10,11 @@
 #include <string>
 #include <vector>
 
+namespace pelvireg::registration
+{
+struct Mutation;
+}
+
 namespace pelvireg::runner
 {
 struct RunnerOptions
@@ -18,6 +23,8 @@ struct RunnerOptions
   double spread = 0.10; ///< Young's moduli are multiplied by 1 + spread U(-1, 1); 0 <= spread < 1 (paper, section 6.1)
   std::uint64_t seed = 1; ///< of the randomised runs
   int n_threads = 1;      ///< runs side by side, >= 1; the result is bit-identical for every value
+  /// For tests of the regression gate alone (registration/mutation.h): a fault to be built into the registration.
+  const registration::Mutation *mutation = nullptr;
   /// Called as the runs go on, never from two threads at once: fraction done (0 … 1) and one line of what happened.
   std::function<void(double, const std::string &)> progress;
 };
