@@ -68,8 +68,8 @@ TEST_F(BaselineFiles, RefuseAResultThatIsNotWhatItsStageWrote)
 
 TEST_F(BaselineFiles, RefuseOtherUnitsVersionsAndFrames)
 {
-  const auto expect = [&](const std::string &file, const std::string &pattern, const std::string &replacement,
-                          const std::string &words)
+  const auto expect =
+      [&](const std::string &file, const std::string &pattern, const std::string &replacement, const std::string &words)
   {
     replace_result(stored());
     edit(result / file, pattern, replacement, file != "manifest.json");

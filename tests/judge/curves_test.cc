@@ -14,8 +14,7 @@ namespace
 const std::string header = "condition,sample,organ,step,n_points,mean_mm,sd_mm,p95_mm,max_mm\n";
 const std::string first = "full,0,vagina,1,40,0.5,0.2,0.9,1.2\n";
 const std::string second = "full,0,vagina,2,40,0.6,0.2,1.0,1.3\n";
-const std::string slice_header =
-    "condition,sample,organ,slice_index,offset_mm,n_points,mean_mm,sd_mm,p95_mm,max_mm\n";
+const std::string slice_header = "condition,sample,organ,slice_index,offset_mm,n_points,mean_mm,sd_mm,p95_mm,max_mm\n";
 
 void expect_refused(const std::string &text, const std::string &words, Axis axis = Axis::step)
 {

@@ -18,8 +18,9 @@ using regression::FamilyName;
 std::vector<FamilyName> registered_families(const ErrorResult &result);
 
 /// Every error of the families that `takes` accepts, times `factor`.
-ErrorResult scaled(ErrorResult result, double factor,
-                   const std::function<bool(const FamilyName &)> &takes = [](const FamilyName &) { return true; });
+ErrorResult scaled(
+    ErrorResult result, double factor,
+    const std::function<bool(const FamilyName &)> &takes = [](const FamilyName &) { return true; });
 
 /// The errors of one family times `factor` at a tenth of its abscissae (at least one), from place `first` on.
 ErrorResult with_bump(ErrorResult result, const FamilyName &family, std::size_t first, double factor);
@@ -27,8 +28,8 @@ ErrorResult with_bump(ErrorResult result, const FamilyName &family, std::size_t 
 /// The 95th percentiles and maxima alone times `factor`: as many points are off, the worst of them farther.
 ErrorResult with_longer_tail(ErrorResult result, const FamilyName &family, double factor);
 
-/// Every error of sample s of a family times exp(sd g), g normal: the family's curves as a whole and each of their values
-/// scatter by half of the variance each. Depends on (seed, family, sample, abscissa) alone.
+/// Every error of sample s of a family times exp(sd g), g normal: the family's curves as a whole and each of their
+/// values scatter by half of the variance each. Depends on (seed, family, sample, abscissa) alone.
 ErrorResult with_noise(ErrorResult result, double sd, std::uint64_t seed);
 
 /// Samples 0 and those of `chosen`, which become 1, 2, 3, …

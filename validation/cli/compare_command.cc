@@ -57,7 +57,7 @@ void add_compare_command(CLI::App &program, Invocation &invocation)
                     "Exit 1 for CHANGED and IMPROVED too: any other numbers than another processor's round-off gives");
   command->footer("Examples:\n  pelvireg compare validation/regression/baselines/quick out/quick\n"
                   "  pelvireg compare out/before out/after --html compare.html\n"
-                  "  pelvireg compare baselines/t005 out/t005 --junit compare.xml --markdown \"$GITHUB_STEP_SUMMARY\"\n"
+                  "  pelvireg compare baselines/t005 out/t005 --junit junit.xml --markdown summary.md\n"
                   "Verdicts: PASS, CHANGED, IMPROVED (exit 0), WORSE (1), INCOMPARABLE, MISSING (2).");
   command->callback(
       [&invocation, arguments]
