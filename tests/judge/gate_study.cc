@@ -63,7 +63,7 @@ FamilyName family_of_trial(const ErrorResult &result, int trial)
   return names[static_cast<std::size_t>(trial) % names.size()];
 }
 
-/// Without contact with the fault's place: any place of the curve, in turn.
+/// A bump somewhere on the curve of a family, both in turn.
 ErrorResult bumped(const ErrorResult &result, int trial, double factor)
 {
   const FamilyName name = family_of_trial(result, trial);
@@ -113,19 +113,24 @@ void print_table(const std::string &title, int n_trials, const Sides &sides)
   }
 }
 
+int n_samples(const ErrorResult &result)
+{
+  return static_cast<int>(result.curves.at(registered_families(result).front()).size()) - 1;
+}
+
 void study(const ErrorResult &runs, const ErrorResult *other_processor)
 {
-  const int n_all = static_cast<int>(runs.curves.at(registered_families(runs).front()).size()) - 1;
-  const auto first = [&](int trial, int n)
+  const int n_all = n_samples(runs), n_both = other_processor ? std::min(n_all, n_samples(*other_processor)) : 0;
+  const auto eight_of = [](int n, int trial)
   {
-    const std::vector<int> order = shuffled(n_all, trial);
-    return std::vector<int>(order.begin(), order.begin() + n);
+    const std::vector<int> order = shuffled(n, trial);
+    return std::vector<int>(order.begin(), order.begin() + 8);
   };
   if (other_processor)
     print_table("8 paired runs, CURRENT from another processor", 1000,
                 [&](int trial)
                 {
-                  const std::vector<int> chosen = first(trial, 8);
+                  const std::vector<int> chosen = eight_of(n_both, trial);
                   return std::pair(resampled(runs, chosen), resampled(*other_processor, chosen));
                 });
   for (const int n : {8, 16})
@@ -140,7 +145,7 @@ void study(const ErrorResult &runs, const ErrorResult *other_processor)
     print_table(fmt::format("8 paired runs, artificial noise of {} on every curve and value of CURRENT", sd), 1000,
                 [&](int trial)
                 {
-                  const ErrorResult chosen = resampled(runs, first(trial, 8));
+                  const ErrorResult chosen = resampled(runs, eight_of(n_all, trial));
                   return std::pair(chosen, with_noise(chosen, sd, static_cast<std::uint64_t>(trial) + 1));
                 });
 }

@@ -105,7 +105,8 @@ void add_anchor(std::vector<FamilyComparison> &families, const std::vector<Famil
       {
         family.verdict = std::max(family.verdict, other.verdict);
         for (const std::string &reason : other.reasons)
-          family.reasons.push_back("against the anchor: " + reason);
+          if (std::find(family.reasons.begin(), family.reasons.end(), reason) == family.reasons.end())
+            family.reasons.push_back("against the anchor: " + reason);
       }
 }
 } // namespace

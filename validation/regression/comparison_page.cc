@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace pelvireg::regression
@@ -82,32 +83,51 @@ std::string mark(Verdict verdict)
   return fmt::format("<span class=\"verdict {}\">{} {}</span>", style, sign, to_string(verdict));
 }
 
+const char *const style = R"(<style>
+.gate td,.gate th{text-align:left}
+.gate td:nth-child(3),.gate td:nth-child(4),.gate td:nth-child(5){white-space:nowrap}
+.gate td:nth-child(6){min-width:16em}
+.gate+p,.legend{margin-top:1em}
+details summary{cursor:pointer;margin:1.5em 0 .5em;font-weight:600}
+@media(max-width:700px){
+.gate thead{display:none}
+.gate tr{display:block;border-bottom:1px solid #999;padding:.6em 0}
+.gate td{display:inline-block;border:0;padding:.1em .5em .1em 0;min-width:0}
+.gate td[data-label]{display:block}
+.gate td[data-label]::before{content:attr(data-label) ": ";font-weight:600}
+}
+</style>
+)";
+
+std::string row_html(const FamilyComparison &family)
+{
+  const bool has_curves = !family.points.empty();
+  std::string html = fmt::format("<tr><td>{}</td><td>{}, {}, {}</td>", mark(family.verdict),
+                                 escape(family.name.condition), escape(family.name.organ), curve_title(family));
+  html += fmt::format("<td data-label=\"Baseline, current (mm)\">{}</td>",
+                      has_curves ? fmt::format("{:.3f} → {:.3f}", family.baseline_mean, family.current_mean) : "–");
+  html += fmt::format("<td data-label=\"Change\">{}</td><td data-label=\"99 % bounds (%)\">{}</td><td>{}</td></tr>\n",
+                      change_text(family), bounds_text(family), escape(remarks_text(family)));
+  return html;
+}
+
 std::string table_html(const Comparison &comparison)
 {
-  std::string html = "<div class=\"scroll\"><table class=\"claims\"><thead><tr>";
-  for (const char *heading : {"Verdict", "Condition", "Organ", "Curve", "Baseline (mm)", "Current (mm)", "Change",
-                              "99 % bounds (%)", "Remarks"})
+  std::string html = "<div class=\"scroll\"><table class=\"gate\"><thead><tr>";
+  for (const char *heading :
+       {"Verdict", "Curves", "Baseline → current (mm)", "Change of E", "99 % bounds (%)", "Remarks"})
     html += fmt::format("<th scope=\"col\">{}</th>", heading);
   html += "</tr></thead><tbody>\n";
-  for (const FamilyComparison &family : comparison.families)
-  {
-    const bool has_curves = !family.points.empty();
-    html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td>", mark(family.verdict),
-                        escape(family.name.condition), escape(family.name.organ), curve_title(family));
-    html += fmt::format("<td data-label=\"Baseline (mm)\">{}</td><td data-label=\"Current (mm)\">{}</td>"
-                        "<td data-label=\"Change\">{}</td><td data-label=\"Bounds (%)\">{}</td><td>{}</td></tr>\n",
-                        has_curves ? fmt::format("{:.3f}", family.baseline_mean) : "–",
-                        has_curves ? fmt::format("{:.3f}", family.current_mean) : "–", change_text(family),
-                        bounds_text(family), escape(remarks_text(family)));
-  }
+  for (const FamilyComparison *family : by_gravity(comparison))
+    html += row_html(*family);
   return html + "</tbody></table></div>\n";
 }
 
 std::string figures_html(const Comparison &comparison, const Rule &rule, bool passed)
 {
   std::string html;
-  for (const FamilyComparison &family : comparison.families)
-    if (!family.points.empty() && (family.verdict == Verdict::pass) == passed)
+  for (const FamilyComparison *entry : by_gravity(comparison))
+    if (const FamilyComparison &family = *entry; !family.points.empty() && (family.verdict == Verdict::pass) == passed)
       html += fmt::format("<h3>{} {}</h3>\n<p>{}</p>\n<div class=\"panels\"><figure>{}</figure><figure>{}</figure>"
                           "</div>\n",
                           mark(family.verdict), escape(title_of(family)), escape(remarks_text(family)),
@@ -135,8 +155,10 @@ std::string rule_html(const Rule &rule)
 std::string comparison_page(const Comparison &comparison, const Rule &rule)
 {
   const std::string title = "Error curves against their baseline: case " + comparison.case_name;
-  std::string html = report::page_head(title) + "<h1>" + escape(title) + "</h1>\n";
-  html += "<p class=\"lead\">" + mark(comparison.verdict()) + " " + escape(headline(comparison)) + "</p>\n";
+  std::string html = report::page_head(title);
+  html.insert(std::min(html.find("</head>"), html.size()), style);
+  html += "<h1>" + escape(title) + "</h1>\n<p class=\"lead\">" + mark(comparison.verdict()) + " " +
+          escape(headline(comparison)) + "</p>\n";
   html += report::table({"", "from", "revision"},
                         {{"baseline", comparison.baseline_label,
                           comparison.baseline_revision + (comparison.has_anchor ? ", anchor" : "")},
@@ -145,7 +167,7 @@ std::string comparison_page(const Comparison &comparison, const Rule &rule)
   for (const std::string &problem : comparison.problems)
     html += "<p>" + mark(Verdict::incomparable) + " " + escape(problem) + "</p>\n";
   html += table_html(comparison) + rule_html(rule);
-  html += "<p class=\"key\">" + report::legend_svg({"baseline", "current"}) + "</p>\n";
+  html += "<div class=\"legend\" style=\"max-width:210px\">" + report::legend_svg({"baseline", "current"}) + "</div>\n";
   html += figures_html(comparison, rule, false);
   html += "<details><summary>Curves that pass</summary>\n" + figures_html(comparison, rule, true) + "</details>\n";
   return html + "</main></body></html>\n";

@@ -11,17 +11,6 @@ namespace pelvireg::regression
 {
 namespace
 {
-/// Grave verdicts first, otherwise in order.
-std::vector<const FamilyComparison *> by_gravity(const Comparison &comparison)
-{
-  std::vector<const FamilyComparison *> families;
-  for (const FamilyComparison &family : comparison.families)
-    families.push_back(&family);
-  std::stable_sort(families.begin(), families.end(),
-                   [](const FamilyComparison *a, const FamilyComparison *b) { return a->verdict > b->verdict; });
-  return families;
-}
-
 std::string error_text(const FamilyComparison &family, double value)
 {
   return family.points.empty() ? "-" : fmt::format("{:.3f}", value);
@@ -82,6 +71,16 @@ std::string sides(const Comparison &comparison)
                      comparison.current_revision, comparison.n_runs);
 }
 } // namespace
+
+std::vector<const FamilyComparison *> by_gravity(const Comparison &comparison)
+{
+  std::vector<const FamilyComparison *> families;
+  for (const FamilyComparison &family : comparison.families)
+    families.push_back(&family);
+  std::stable_sort(families.begin(), families.end(),
+                   [](const FamilyComparison *a, const FamilyComparison *b) { return a->verdict > b->verdict; });
+  return families;
+}
 
 std::string curve_title(const FamilyComparison &family)
 {

@@ -4,9 +4,13 @@
 #include "validation/regression/compare.h"
 
 #include <string>
+#include <vector>
 
 namespace pelvireg::regression
 {
+/// The families, grave verdicts first, otherwise in order.
+std::vector<const FamilyComparison *> by_gravity(const Comparison &comparison);
+
 /// "PASS: 26 of 26 …" in one line.
 std::string headline(const Comparison &comparison);
 
