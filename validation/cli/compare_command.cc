@@ -46,7 +46,7 @@ void add_compare_command(CLI::App &program, Invocation &invocation)
 {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App *command = program.add_subcommand(
-      "compare", "The regression gate: have the error curves become worse? Exit 0 no, 1 yes, 2 cannot be compared");
+      "compare", "The regression gate: have the error curves become worse? Exit 0 no, 1 yes, 2 cannot be told");
   command->add_option("BASELINE", arguments->baseline, "Baseline folder, or an evaluated result directory")->required();
   command->add_option("CURRENT", arguments->current, "Evaluated result directory")->required();
   command->add_option("--markdown", arguments->markdown, "Write a summary for a CI's page");

@@ -89,7 +89,7 @@ void require_no_loss_against_anchor(const ErrorResult &candidate, const fs::path
     return;
   std::string first = comparison.problems.empty() ? "" : comparison.problems.front();
   for (const FamilyComparison &family : comparison.families)
-    if (first.empty() && family.verdict >= Verdict::worse)
+    if (first.empty() && family.verdict >= Verdict::incomparable)
       first = fmt::format("{}, {}: {}", family.name.condition, family.name.organ, family.reasons.front());
   throw InputError(fmt::format("the candidate is {} against the frozen anchor ({}); when that is meant, freeze it anew "
                                "with --anchor",

@@ -101,7 +101,7 @@ void add_anchor(std::vector<FamilyComparison> &families, const std::vector<Famil
 {
   for (FamilyComparison &family : families)
     for (const FamilyComparison &other : against_anchor)
-      if (other.name == family.name && other.is_steps == family.is_steps && other.verdict >= Verdict::worse)
+      if (other.name == family.name && other.is_steps == family.is_steps && other.verdict >= Verdict::incomparable)
       {
         family.verdict = std::max(family.verdict, other.verdict);
         for (const std::string &reason : other.reasons)
@@ -121,19 +121,19 @@ std::string to_string(Verdict verdict)
     return "CHANGED";
   case Verdict::improved:
     return "IMPROVED";
-  case Verdict::worse:
-    return "WORSE";
   case Verdict::incomparable:
     return "INCOMPARABLE";
   case Verdict::missing:
+    return "MISSING";
+  case Verdict::worse:
     break;
   }
-  return "MISSING";
+  return "WORSE";
 }
 
 Verdict Comparison::verdict() const
 {
-  Verdict gravest = problems.empty() && !families.empty() ? Verdict::pass : Verdict::incomparable;
+  Verdict gravest = problems.empty() ? Verdict::pass : Verdict::incomparable;
   for (const FamilyComparison &family : families)
     gravest = std::max(gravest, family.verdict);
   return gravest;
@@ -158,6 +158,8 @@ Comparison compare(const Baseline &baseline, const ErrorResult &current, const R
   if (baseline.anchor)
     for (const std::string &problem : problems_between(*baseline.anchor, current))
       comparison.problems.push_back("against the anchor: " + problem);
+  if (registered_conditions(baseline.rolling).empty() || baseline.rolling.curves.empty())
+    comparison.problems.push_back("BASELINE holds no registered run");
   if (!comparison.problems.empty())
     return comparison;
   comparison.families = compare_families(baseline.rolling, current, rule);

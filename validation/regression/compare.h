@@ -11,14 +11,15 @@
 
 namespace pelvireg::regression
 {
+/// From the best to the gravest.
 enum class Verdict
 {
   pass,         ///< not worse, and the same numbers to the round-off of another processor
   changed,      ///< not worse, other numbers
   improved,     ///< proven better by more than the line: time to accept a new baseline
-  worse,        ///< proven worse, by more than the rule allows
   incomparable, ///< cannot be judged: other abscissae, runs, points or truth, or too few runs
-  missing       ///< a family that one of the two sides has not
+  missing,      ///< a family that one of the two sides has not
+  worse         ///< proven worse, by more than the rule allows
 };
 
 /// "PASS", "CHANGED", …
@@ -57,9 +58,10 @@ struct Comparison
   std::vector<std::string> problems;
   std::vector<FamilyComparison> families;
 
-  /// The gravest verdict: missing, incomparable, worse, improved, changed, pass.
+  /// The gravest of all families.
   Verdict verdict() const;
-  /// 0: not worse. 1: worse. 2: something cannot be compared, whatever else was found.
+  /// 0: nothing is worse. 1: something is, whatever else was found. 2: nothing is proven worse, and something cannot be
+  /// compared.
   int exit_status() const;
 };
 

@@ -34,12 +34,18 @@ std::string xml(const std::string &text)
   return safe;
 }
 
+/// Neither passed nor failed: it could not be judged.
+bool is_error(Verdict verdict)
+{
+  return verdict == Verdict::incomparable || verdict == Verdict::missing;
+}
+
 std::string test_case(const Comparison &comparison, const FamilyComparison &family)
 {
   const std::string name = fmt::format("classname=\"pelvireg.{}.{}\" name=\"{} {}\"", xml(comparison.case_name),
                                        xml(family.name.condition), xml(family.name.organ), curve_title(family));
   const std::string verdict = to_string(family.verdict), words = xml(remarks_text(family));
-  if (family.verdict >= Verdict::incomparable)
+  if (is_error(family.verdict))
     return fmt::format("    <testcase {}><error type=\"{}\" message=\"{}\"/></testcase>\n", name, verdict, words);
   if (family.verdict == Verdict::worse)
     return fmt::format("    <testcase {}><failure type=\"{}\" message=\"{}\"/></testcase>\n", name, verdict, words);
@@ -98,7 +104,7 @@ std::string comparison_junit(const Comparison &comparison)
   {
     cases += test_case(comparison, family);
     n_failures += family.verdict == Verdict::worse;
-    n_errors += family.verdict >= Verdict::incomparable;
+    n_errors += is_error(family.verdict);
   }
   const std::size_t n_tests = comparison.problems.size() + comparison.families.size();
   return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
