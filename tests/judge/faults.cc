@@ -96,17 +96,18 @@ ErrorResult with_noise(ErrorResult result, double sd, std::uint64_t seed)
 
 ErrorResult resampled(const ErrorResult &result, const std::vector<int> &chosen)
 {
-  ErrorResult picked = result;
-  picked.runs.clear();
-  for (auto &[name, family] : picked.curves)
+  ErrorResult picked;
+  picked.label = result.label;
+  picked.case_name = result.case_name;
+  picked.case_text = result.case_text;
+  picked.surface_spacing = result.surface_spacing;
+  picked.contour_spacing = result.contour_spacing;
+  for (const auto &[name, all] : result.curves)
   {
-    const regression::Family all = family;
-    if (all.size() > 1)
-    {
-      family = {{0, all.at(0)}};
-      for (std::size_t i = 0; i < chosen.size(); ++i)
-        family[static_cast<int>(i) + 1] = all.at(chosen[i]);
-    }
+    regression::Family &family = picked.curves[name];
+    family[0] = all.at(0);
+    for (std::size_t i = 0; all.size() > 1 && i < chosen.size(); ++i)
+      family[static_cast<int>(i) + 1] = all.at(chosen[i]);
     for (const auto &[sample, curve] : family)
       if (name.condition != "unregistered")
         picked.runs[{name.condition, sample}] =

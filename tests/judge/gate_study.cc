@@ -1,4 +1,5 @@
-// Detection and false alarms of the regression gate on real runs: docs/regression.md, "Power".
+// Detection and false alarms of the regression gate on real runs: docs/verification.md, "Power of the
+// regression gate".
 //   gate_study DIR [DIR_OF_ANOTHER_PROCESSOR] — result directories with many randomised runs (200)
 #include "synthetic/dataset/error.h"
 #include "tests/judge/faults.h"
@@ -121,20 +122,21 @@ int n_samples(const ErrorResult &result)
 void study(const ErrorResult &runs, const ErrorResult *other_processor)
 {
   const int n_all = n_samples(runs), n_both = other_processor ? std::min(n_all, n_samples(*other_processor)) : 0;
+  constexpr int many = 1000, some = 400;
   const auto eight_of = [](int n, int trial)
   {
     const std::vector<int> order = shuffled(n, trial);
     return std::vector<int>(order.begin(), order.begin() + 8);
   };
   if (other_processor)
-    print_table("8 paired runs, CURRENT from another processor", 1000,
+    print_table("8 paired runs, CURRENT from another processor", many,
                 [&](int trial)
                 {
                   const std::vector<int> chosen = eight_of(n_both, trial);
                   return std::pair(resampled(runs, chosen), resampled(*other_processor, chosen));
                 });
   for (const int n : {8, 16})
-    print_table(fmt::format("{} runs, not paired: other moduli on each side", n), 1000,
+    print_table(fmt::format("{} runs, not paired: other moduli on each side", n), n == 8 ? many : some,
                 [&](int trial)
                 {
                   const std::vector<int> order = shuffled(n_all, trial);
@@ -142,7 +144,7 @@ void study(const ErrorResult &runs, const ErrorResult *other_processor)
                                    resampled(runs, {order.begin() + n, order.begin() + 2 * n}));
                 });
   for (const double sd : {0.01, 0.03})
-    print_table(fmt::format("8 paired runs, artificial noise of {} on every curve and value of CURRENT", sd), 1000,
+    print_table(fmt::format("8 paired runs, artificial noise of {} on every curve and value of CURRENT", sd), some,
                 [&](int trial)
                 {
                   const ErrorResult chosen = resampled(runs, eight_of(n_all, trial));

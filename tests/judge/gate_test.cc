@@ -81,6 +81,17 @@ TEST(Gate, CatchesALongerTailBehindAnUnchangedMean)
     EXPECT_EQ(verdict_of(gate(stored(), test::with_longer_tail(stored(), name, 1.1)), name), Verdict::worse);
 }
 
+TEST(Gate, CatchesWhatTheNominalRunDoesNotShow)
+{
+  for (const ErrorResult &worse :
+       {test::scaled(stored(), 1.05, only(vagina)), test::with_longer_tail(stored(), vagina, 1.1)})
+  {
+    ErrorResult current = worse;
+    current.curves.at(vagina).at(0) = stored().curves.at(vagina).at(0);
+    EXPECT_EQ(verdict_of(gate(stored(), current)), Verdict::worse);
+  }
+}
+
 TEST(Gate, CatchesANominalRunThatIsWorseAlone)
 {
   ErrorResult current = stored();

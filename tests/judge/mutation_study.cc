@@ -1,4 +1,5 @@
-// What the regression gate says of faults built into the registration: docs/regression.md, "Power".
+// What the regression gate says of faults built into the registration: docs/verification.md, "Power of the
+// regression gate".
 //   mutation_study DIR [SAMPLES] — an evaluated result directory
 #include "synthetic/dataset/error.h"
 #include "synthetic/dataset/geometry.h"

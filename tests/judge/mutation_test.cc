@@ -1,5 +1,5 @@
 // Real faults in the registration, played on `quick` and held against the stored baseline. What each does to the curves
-// is tabled in docs/regression.md.
+// is tabled in docs/verification.md.
 #include "tests/judge/faults.h"
 #include "tests/judge/mutated_run.h"
 #include "validation/cli/sha256.h"

@@ -70,7 +70,7 @@ Eigen::MatrixXd random_curves(int n, int length, std::uint64_t seed)
 TEST(SimultaneousBand, HoldsTheWholeTrueCurveAsOftenAsItSays)
 {
   // 20 independent places, true curve 0, level 0.05; 600 trials: 0.95 +- 0.027 (three standard errors). Few runs must
-  // not make it narrower than it says; how much too narrow it is with 8 runs is in docs/regression.md.
+  // not make it narrower than it says.
   const Eigen::MatrixXd shares = bootstrap_shares(40, 999, 11);
   int n_held = 0;
   constexpr int n_trials = 600;
