@@ -155,10 +155,11 @@ std::string rule_html(const Rule &rule)
 std::string comparison_page(const Comparison &comparison, const Rule &rule)
 {
   const std::string title = "Error curves against their baseline: case " + comparison.case_name;
+  const std::string summary = headline(comparison); // "VERDICT: the rest"
   std::string html = report::page_head(title);
   html.insert(std::min(html.find("</head>"), html.size()), style);
   html += "<h1>" + escape(title) + "</h1>\n<p class=\"lead\">" + mark(comparison.verdict()) + " " +
-          escape(headline(comparison)) + "</p>\n";
+          escape(summary.substr(summary.find(':') + 2)) + "</p>\n";
   html += report::table({"", "from", "revision"},
                         {{"baseline", comparison.baseline_label,
                           comparison.baseline_revision + (comparison.has_anchor ? ", anchor" : "")},
