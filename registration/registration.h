@@ -2,6 +2,8 @@
 // Plain arrays in and out. Units: mm, N, MPa, s, t. Paper: sections 5.1 and 5.2.
 #pragma once
 
+#include "registration/mutation.h"
+
 #include <Eigen/Core>
 
 #include <memory>
@@ -110,6 +112,7 @@ struct Options
   double tolerance_mm = 1e-6;     ///< the constraint solve stops when the largest change of a row's gap is below …
   double tolerance_newton = 1e-4; ///< … and, for contacts, the largest change of a force
   int n_threads = 1;              ///< results are bit-identical for every value
+  Mutation mutation = {};         ///< for tests of the regression gate alone
 
   /// All problems as sentences; empty when the options are usable.
   std::vector<std::string> violations() const;

@@ -45,6 +45,14 @@ Body held_body(Body body, bool use_attachments)
   return body;
 }
 
+/// The body as a mutation leaves it.
+Body mutated_body(Body body, int index, const Mutation &mutation)
+{
+  if (index == mutation.wrong_body)
+    body.youngs_modulus *= mutation.wrong_factor;
+  return body;
+}
+
 /// The model's box, three times as large.
 Eigen::AlignedBox3d neighbourhood_of(const Model &model)
 {
@@ -78,7 +86,9 @@ Registration::Implementation::Implementation(const Model &model, const Options &
     n_held_nodes.push_back(attachment.nodes.size());
   for (const Body &body : model.bodies)
   {
-    bodies.emplace_back(held_body(body, options.use_attachments), options.time_step);
+    bodies.emplace_back(
+        mutated_body(held_body(body, options.use_attachments), static_cast<int>(bodies.size()), options.mutation),
+        options.time_step, !options.mutation.stale_rotations);
     trees.emplace_back(wall_triangles(body), body.rest_positions);
     outer_surfaces.push_back(body.outer_triangles);
     nodal_forces.push_back(Points::Zero(body.rest_positions.rows(), 3));
@@ -91,6 +101,8 @@ Registration::Implementation::Implementation(const Model &model, const Options &
   {
     if (!options.use_attachments)
       break;
+    if (&attachment - model.attachments.data() == options.mutation.dropped_attachment)
+      continue;
     const std::vector<AttachedNode> bound =
         bind_attachment(attachment, model.bodies, trees[attachment.body_b], options.attachment_compliance);
     attached_nodes.insert(attached_nodes.end(), bound.begin(), bound.end());

@@ -58,6 +58,8 @@ SlidingMatch match_control_point(const TriangleTree &tree, const Points &positio
   match.direction = in_plane_direction(tree.normal(nearest.triangle, match.weights), plane_normal);
   if (match.direction.isZero(0))
     match.direction = in_plane_direction(triangle_normal(tree, positions, nearest.triangle), plane_normal);
+  if (options.mutation.unprojected_normals)
+    match.direction = tree.normal(nearest.triangle, match.weights).normalized();
   Eigen::Vector3d on_surface = Eigen::Vector3d::Zero();
   for (int i = 0; i < 3; ++i)
     on_surface += match.weights[i] * corner(tree, positions, nearest.triangle, i);

@@ -34,7 +34,8 @@ void add_cliques(const Connectivity &cells, const std::vector<int> &free_index, 
 }
 } // namespace
 
-BodySolver::BodySolver(const Body &body, double time_step) : positions_(body.rest_positions), corrected_(positions_)
+BodySolver::BodySolver(const Body &body, double time_step, bool follows_rotations)
+    : positions_(body.rest_positions), corrected_(positions_), follows_rotations_(follows_rotations)
 {
   inertia_.assign(positions_.rows(), 0.0);
   add_volume_shares<Tetrahedron>(body, body.tets, inertia_);
@@ -88,8 +89,8 @@ void BodySolver::assemble()
   for (std::size_t node = 0; node < inertia_.size(); ++node)
     if (first_unknown_[node] >= 0)
       matrix_.add_to_diagonal(first_unknown_[node] / 3, inertia_[node]);
-  tetrahedra_->add(positions_, matrix_, load_);
-  hexahedra_->add(positions_, matrix_, load_);
+  tetrahedra_->add(positions_, matrix_, load_, follows_rotations_);
+  hexahedra_->add(positions_, matrix_, load_, follows_rotations_);
 }
 
 void BodySolver::predict_free_motion()

@@ -18,8 +18,9 @@ namespace pelvireg::registration
 class BodySolver
 {
 public:
-  /// `body` must have passed check_model(). time_step in s.
-  BodySolver(const Body &body, double time_step);
+  /// `body` must have passed check_model(). time_step in s. Without `follows_rotations` elements keep that of rest
+  /// (Mutation::stale_rotations).
+  BodySolver(const Body &body, double time_step, bool follows_rotations = true);
 
   const Points &positions() const { return positions_; }
   void set_positions(const Points &positions) { positions_ = positions; }
@@ -68,6 +69,7 @@ private:
   SymmetricBlockMatrix matrix_;
   std::optional<TetrahedronAssembly> tetrahedra_;
   std::optional<HexahedronAssembly> hexahedra_;
+  bool follows_rotations_ = true;
   std::optional<SupernodalFactor> factor_;
   Eigen::VectorXd load_, reduced_load_, correction_;
   std::vector<int> touching_rows_;

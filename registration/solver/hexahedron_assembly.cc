@@ -35,13 +35,15 @@ HexahedronAssembly::HexahedronAssembly(const Body &body, const std::vector<int> 
   }
 }
 
-void HexahedronAssembly::add(const Points &positions, SymmetricBlockMatrix &matrix, Eigen::VectorXd &load) const
+void HexahedronAssembly::add(const Points &positions, SymmetricBlockMatrix &matrix, Eigen::VectorXd &load,
+                             bool follows_rotations) const
 {
   for (std::size_t e = 0; e < elements_.size(); ++e)
   {
     const Hexahedron &element = elements_[e];
     const Hexahedron::NodalVectors x = gather(positions, nodes_[e]);
-    const Eigen::Matrix3d rotation = element.rotation(x);
+    const Eigen::Matrix3d rotation =
+        follows_rotations ? element.rotation(x) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     const Hexahedron::NodalVectors force = element.force(rotation, x);
     for (int a = 0; a < Hexahedron::n_nodes; ++a)
       if (unknowns_[e][a] >= 0)

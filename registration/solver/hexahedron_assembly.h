@@ -16,8 +16,10 @@ public:
   /// As TetrahedronAssembly.
   HexahedronAssembly(const Body &body, const std::vector<int> &first_unknown, const SymmetricBlockMatrix &matrix);
 
-  /// Add K to the matrix and -F to the load at the given positions.
-  void add(const Points &positions, SymmetricBlockMatrix &matrix, Eigen::VectorXd &load) const;
+  /// Add K to the matrix and -F to the load at the given positions. Without `follows_rotations` elements keep that of
+  /// rest (Mutation::stale_rotations).
+  void add(const Points &positions, SymmetricBlockMatrix &matrix, Eigen::VectorXd &load,
+           bool follows_rotations = true) const;
 
 private:
   /// One 3 x 3 block of one element's stiffness and the block of A that takes it.

@@ -33,6 +33,11 @@ void rotation_of_lane(const double (&f)[9], double (&q)[9])
 {
   Eigen::Map<Eigen::Matrix3d>(+q) = rotation_of(Eigen::Map<const Eigen::Matrix3d>(+f));
 }
+
+void rotation_of_rest(const double (&)[9], double (&q)[9])
+{
+  Eigen::Map<Eigen::Matrix3d>(+q).setIdentity();
+}
 } // namespace
 
 TetrahedronAssembly::TetrahedronAssembly(const Body &body, const std::vector<int> &first_unknown,
@@ -67,12 +72,14 @@ TetrahedronAssembly::TetrahedronAssembly(const Body &body, const std::vector<int
   }
 }
 
-void TetrahedronAssembly::add(const Points &positions, SymmetricBlockMatrix &matrix, Eigen::VectorXd &load) const
+void TetrahedronAssembly::add(const Points &positions, SymmetricBlockMatrix &matrix, Eigen::VectorXd &load,
+                              bool follows_rotations) const
 {
   kernels::TetrahedronResult result;
   for (std::size_t g = 0; g < groups_.size(); ++g)
   {
-    kernels_->assemble_tetrahedra(groups_[g], positions.data(), rotation_of_lane, result);
+    kernels_->assemble_tetrahedra(groups_[g], positions.data(), follows_rotations ? rotation_of_lane : rotation_of_rest,
+                                  result);
     for (int lane = 0; lane < width; ++lane)
     {
       const Target &target = targets_[g * width + lane];

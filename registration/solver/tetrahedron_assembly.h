@@ -20,8 +20,10 @@ public:
   TetrahedronAssembly(const Body &body, const std::vector<int> &first_unknown, const SymmetricBlockMatrix &matrix,
                       const kernels::Kernels &kernels = kernels::best());
 
-  /// Add K to the matrix and -F to the load at the given positions.
-  void add(const Points &positions, SymmetricBlockMatrix &matrix, Eigen::VectorXd &load) const;
+  /// Add K to the matrix and -F to the load at the given positions. Without `follows_rotations` elements keep that of
+  /// rest (Mutation::stale_rotations).
+  void add(const Points &positions, SymmetricBlockMatrix &matrix, Eigen::VectorXd &load,
+           bool follows_rotations = true) const;
 
 private:
   static constexpr int n_pairs = 10; ///< of an element's nodes, a >= b

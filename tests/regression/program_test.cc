@@ -134,6 +134,10 @@ TEST_F(Program, RefusesWhatItDoesNotKnow)
   expect_refused("register . --condition no_such_condition", "no_such_condition");
   expect_refused("evaluate .", "anatomy.h5");
   expect_refused("export . --format dxf", "dxf");
+  expect_refused("compare no_such_baseline .", "MISSING");
+  expect_refused("baseline propose . --baseline new", "manifest.json");
+  expect_refused("baseline accept no_such_baseline --reason \"no reason to speak of\"", "no candidate");
+  expect_refused("baseline accept no_such_baseline", "--reason");
   EXPECT_THAT(files(), IsEmpty());
 }
 
@@ -176,7 +180,8 @@ TEST_F(Program, TakesTheMotionThatAnotherProgramGaveItsDeckAsTruth)
 TEST_F(Program, HasHelpWithExamplesForEveryCommand)
 {
   for (const char *command : {"", "run", "anatomy", "reference", "observe", "register", "merge", "evaluate", "report",
-                              "export", "import", "mesh-study", "cavity-study"})
+                              "export", "import", "mesh-study", "cavity-study", "compare", "baseline",
+                              "baseline propose", "baseline accept"})
   {
     const Outcome outcome = call(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;

@@ -17,6 +17,7 @@ struct Invocation
 {
   std::string command_line;     ///< as typed, for the manifest
   std::function<void()> action; ///< set by the command that was given
+  int status = 0;               ///< exit status, set by the action when it has more to say than that it is done
 };
 
 void add_case_commands(CLI::App &program, Invocation &invocation);     ///< cases, anatomy
@@ -26,6 +27,8 @@ void add_run_command(CLI::App &program, Invocation &invocation);       ///< run
 void add_study_commands(CLI::App &program, Invocation &invocation);    ///< mesh-study, cavity-study
 void add_export_command(CLI::App &program, Invocation &invocation);    ///< export
 void add_import_command(CLI::App &program, Invocation &invocation);    ///< import
+void add_compare_command(CLI::App &program, Invocation &invocation);   ///< compare
+void add_baseline_command(CLI::App &program, Invocation &invocation);  ///< baseline propose, baseline accept
 
 /// The name of a case in files: a built-in name as it is, a path without folder and extension.
 std::string case_label(const std::string &name_or_path);

@@ -37,7 +37,8 @@ void describe(CLI::App &program, pelvireg::cli::Invocation &invocation)
                  "  pelvireg run quick             the whole chain on a coarse case, under half a minute\n"
                  "  pelvireg run t005              the paper's synthetic evaluation, results in out/t005\n"
                  "  pelvireg register --help       options of one stage\n"
-                 "Exit status: 0 done, 1 a computation failed, 2 bad input. Units: mm, N, MPa, s, t. Frame: LPS.");
+                 "Exit status: 0 done, 1 a computation failed (compare: curves are worse), 2 bad input. Units: mm, N, "
+                 "MPa, s, t. Frame: LPS.");
   add_run_command(program, invocation);
   add_case_commands(program, invocation);
   add_stage_commands(program, invocation);
@@ -45,6 +46,8 @@ void describe(CLI::App &program, pelvireg::cli::Invocation &invocation)
   add_study_commands(program, invocation);
   add_export_command(program, invocation);
   add_import_command(program, invocation);
+  add_compare_command(program, invocation);
+  add_baseline_command(program, invocation);
 }
 
 /// One sentence for a mistake in the command line.
@@ -62,7 +65,7 @@ std::string sentence_of(const CLI::App &program, const CLI::ParseError &error)
 
 int run(int argc, char **argv)
 {
-  pelvireg::cli::Invocation invocation{joined(argc, argv), {}};
+  pelvireg::cli::Invocation invocation{.command_line = joined(argc, argv), .action = {}};
   CLI::App program(
       "Reference-validation harness: how far can a registration driven by one image plane be trusted in 3D?");
   describe(program, invocation);
@@ -82,7 +85,7 @@ int run(int argc, char **argv)
     return fail("a command is required, for example 'run'; see 'pelvireg --help'", exit_bad_input);
   pelvireg::cli::ensure_single_threaded_libraries(argv);
   invocation.action();
-  return 0;
+  return invocation.status;
 }
 } // namespace
 

@@ -31,22 +31,27 @@ double tick_step(double reach)
 
 struct Axes
 {
-  double x_min, x_max, y_max, y_step;
+  double x_min, x_max, y_min, y_max, y_step;
 
   static double y_max_position() { return top; }
   double x(double value) const { return left + (value - x_min) / (x_max - x_min) * (width - left - right); }
-  /// A value beyond the axis lies on its upper end.
-  double y(double value) const { return height - bottom - std::min(value / y_max, 1.0) * (height - top - bottom); }
+  /// A value beyond the axis lies on its end.
+  double y(double value) const
+  {
+    const double share = std::clamp((value - y_min) / (y_max - y_min), 0.0, 1.0);
+    return height - bottom - share * (height - top - bottom);
+  }
 };
 
 Axes axes_of(const LinePlot &plot)
 {
-  if (plot.abscissae.empty() || !(plot.y_max > 0))
-    throw std::invalid_argument("line plot: needs at least one abscissa and a positive y_max");
+  if (plot.abscissae.empty() || !(plot.y_max > plot.y_min))
+    throw std::invalid_argument("line plot: needs at least one abscissa and a y_max above y_min");
   const auto [lowest, highest] = std::minmax_element(plot.abscissae.begin(), plot.abscissae.end());
-  const double step = tick_step(plot.y_max);
+  const double step = tick_step(plot.y_max - plot.y_min);
   const double margin = *lowest == *highest ? 1 : 0;
-  return {*lowest - margin, *highest + margin, step * std::ceil(plot.y_max / step - 1e-9), step};
+  return {*lowest - margin, *highest + margin, step * std::floor(plot.y_min / step + 1e-9),
+          step * std::ceil(plot.y_max / step - 1e-9), step};
 }
 
 std::string text_at(double x, double y, const std::string &anchor, const std::string &text,
@@ -59,9 +64,10 @@ std::string text_at(double x, double y, const std::string &anchor, const std::st
 std::string frame(const LinePlot &plot, const Axes &axes)
 {
   std::string svg;
-  for (int i = 0; i * axes.y_step <= axes.y_max * (1 + 1e-9); ++i)
+  const int n_ticks = static_cast<int>(std::lround((axes.y_max - axes.y_min) / axes.y_step));
+  for (int i = 0; i <= n_ticks; ++i)
   {
-    const double value = i * axes.y_step;
+    const double value = (std::round(axes.y_min / axes.y_step) + i) * axes.y_step;
     svg += fmt::format("<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#ddd\"/>\n", left,
                        width - right, axes.y(value), axes.y(value));
     svg += text_at(left - 6, axes.y(value) + 4, "end", fmt::format("{:g}", value));
@@ -124,7 +130,7 @@ std::string band(const LinePlot &plot, const Axes &axes, std::size_t c)
     {
       const double x = axes.x(plot.abscissae[i]);
       const double above = std::min(*curve.values[i] + curve.spreads[i], axes.y_max);
-      const double below = std::max(*curve.values[i] - curve.spreads[i], 0.0);
+      const double below = std::max(*curve.values[i] - curve.spreads[i], axes.y_min);
       upper += fmt::format("{}{:.1f} {:.1f}", upper.empty() ? "M" : "L", x, axes.y(above));
       lower = fmt::format("L{:.1f} {:.1f}", x, axes.y(below)) + lower;
     }
@@ -175,7 +181,7 @@ std::string line_plot_svg(const LinePlot &plot)
   std::string svg = open_svg(width, height, plot.title + ": " + plot.y_label + " against " + plot.x_label);
   svg += frame(plot, axes);
   for (const ReferenceLine &line : plot.lines)
-    if (line.value <= axes.y_max)
+    if (line.value >= axes.y_min && line.value <= axes.y_max)
     {
       svg += fmt::format("<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#333\" "
                          "stroke-dasharray=\"6 4\"/>\n",

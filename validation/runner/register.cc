@@ -164,6 +164,11 @@ RegistrationRuns::RegistrationRuns(const dataset::Anatomy &anatomy, const datase
     rest_surfaces_.push_back({organ, outer_surface(organ_body(model_, organ)).rest, {}});
 }
 
+void RegistrationRuns::mutate(const registration::Mutation &mutation)
+{
+  options_.mutation = mutation;
+}
+
 /// Numbers are drawn for the bodies of the whole model, so that a body is the same in every condition.
 dataset::RegistrationModel RegistrationRuns::model_of_run(int sample) const
 {
@@ -246,7 +251,9 @@ dataset::Estimate run_registration(const dataset::Anatomy &anatomy, const datase
   if (options.samples < 0 || options.n_threads < 1)
     throw InputError(fmt::format("register: got samples {}, threads {}; allowed are samples >= 0, threads >= 1",
                                  options.samples, options.n_threads));
-  const RegistrationRuns runs(anatomy, observations, condition, options.perturbation);
+  RegistrationRuns runs(anatomy, observations, condition, options.perturbation);
+  if (options.mutation)
+    runs.mutate(*options.mutation);
   dataset::Estimate estimate = runs.description();
   estimate.samples.resize(static_cast<std::size_t>(options.samples) + 1);
   play_runs(runs, runs_of_shard(options.samples, {}), options,

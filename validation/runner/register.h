@@ -11,6 +11,11 @@
 #include <string>
 #include <vector>
 
+namespace pelvireg::registration
+{
+struct Mutation;
+}
+
 namespace pelvireg::runner
 {
 /// One of n equal shares of the runs, so that several processes or machines can share them.
@@ -28,6 +33,8 @@ struct RunnerOptions
   int samples = 0; ///< randomised runs beside the nominal one, which is sample 0; >= 0
   dataset::Perturbation perturbation{.modulus_spread = 0.10}; ///< of the randomised runs (paper, section 6.1)
   int n_threads = 1; ///< runs side by side, >= 1; the result is bit-identical for every value
+  /// For tests of the regression gate alone (registration/mutation.h): a fault to be built into the registration.
+  const registration::Mutation *mutation = nullptr;
   /// Called as the runs go on, never from two threads at once: fraction done (0 … 1) and one line of what happened.
   std::function<void(double, const std::string &)> progress;
 };
@@ -56,6 +63,9 @@ public:
   /// missing organ.
   RegistrationRuns(const dataset::Anatomy &anatomy, const dataset::Observations &observations,
                    const std::string &condition, const dataset::Perturbation &perturbation);
+
+  /// For tests of the regression gate alone (registration/mutation.h): build a fault into every run.
+  void mutate(const registration::Mutation &mutation);
 
   /// The estimate without its samples.
   const dataset::Estimate &description() const { return description_; }

@@ -47,6 +47,20 @@ TEST(LinePlot, WritesOutAValueBeyondTheAxis)
   EXPECT_EQ(count(svg, "cy=\"-"), 0);
 }
 
+TEST(LinePlot, ReachesBelowZeroWhenAsked)
+{
+  // Axis from -1 to 3 in steps of 1: the value 1 lies in the middle of 274 … 34, a value below the axis on its end.
+  LinePlot change = plot();
+  change.y_min = -1;
+  change.curves[0].values[1] = -7.0;
+  const std::string svg = line_plot_svg(change);
+  EXPECT_NE(svg.find("<circle cx=\"52.0\" cy=\"154.0\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find(">-1<"), std::string::npos);
+  EXPECT_EQ(count(svg, "cy=\"274.0\""), 1);
+  change.y_max = -1;
+  EXPECT_THROW(line_plot_svg(change), std::invalid_argument);
+}
+
 TEST(LinePlot, EscapesItsText)
 {
   EXPECT_NE(line_plot_svg(plot()).find("title &lt;1&gt;"), std::string::npos);

@@ -1,0 +1,251 @@
+// The gate must pass what is not worse and catch every fault, on the curves of the stored baseline of `quick`.
+#include "synthetic/dataset/error.h"
+#include "tests/judge/faults.h"
+#include "validation/cli/sha256.h"
+#include "validation/regression/comparison_page.h"
+#include "validation/regression/comparison_text.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pelvireg::regression
+{
+namespace
+{
+using test::family_of;
+using test::gate;
+
+const ErrorResult &stored()
+{
+  static const ErrorResult baseline =
+      load_baseline_part(std::filesystem::path(PELVIREG_BASELINES) / "quick", cli::sha256_of_text);
+  return baseline;
+}
+
+const FamilyName vagina{"full", "vagina", Axis::step};
+
+Verdict verdict_of(const Comparison &comparison, const FamilyName &name = vagina)
+{
+  return family_of(comparison, name).verdict;
+}
+
+auto only(const FamilyName &name)
+{
+  return [name](const FamilyName &other) { return other == name; };
+}
+
+TEST(Gate, PassesTheSameCurves)
+{
+  const Comparison comparison = gate(stored(), stored());
+  EXPECT_EQ(comparison.exit_status(), 0);
+  for (const FamilyComparison &family : comparison.families)
+    EXPECT_EQ(family.verdict, Verdict::pass) << curve_title(family);
+  EXPECT_EQ(comparison.families.size(), 26u) << "3 conditions, 4 organs, 2 axes; 2 records of failed steps";
+}
+
+TEST(Gate, PassesTwoPercentWithAWarningAndCatchesFive)
+{
+  for (const FamilyName &name : test::registered_families(stored()))
+  {
+    const auto scaled = [&](double factor) { return gate(stored(), test::scaled(stored(), factor, only(name))); };
+    const Comparison two = scaled(1.021);
+    EXPECT_EQ(two.exit_status(), 0);
+    EXPECT_EQ(verdict_of(two, name), Verdict::changed);
+    EXPECT_FALSE(family_of(two, name).warnings.empty());
+    for (const double factor : {1.05, 1.10})
+    {
+      EXPECT_EQ(scaled(factor).exit_status(), 1);
+      EXPECT_EQ(verdict_of(scaled(factor), name), Verdict::worse);
+    }
+    EXPECT_EQ(scaled(0.95).exit_status(), 0);
+    EXPECT_EQ(verdict_of(scaled(0.95), name), Verdict::improved);
+  }
+}
+
+TEST(Gate, CatchesABumpAtEveryPlaceOfEveryCurve)
+{
+  for (const FamilyName &name : test::registered_families(stored()))
+    for (std::size_t place = 0; place < stored().curves.at(name).at(0).size(); place += 2)
+    {
+      const Comparison comparison = gate(stored(), test::with_bump(stored(), name, place, 1.2));
+      EXPECT_EQ(verdict_of(comparison, name), Verdict::worse)
+          << name.condition << ", " << name.organ << ", by " << to_string(name.axis) << ", place " << place;
+    }
+}
+
+TEST(Gate, CatchesALongerTailBehindAnUnchangedMean)
+{
+  for (const FamilyName &name : test::registered_families(stored()))
+    EXPECT_EQ(verdict_of(gate(stored(), test::with_longer_tail(stored(), name, 1.1)), name), Verdict::worse);
+}
+
+TEST(Gate, CatchesWhatTheNominalRunDoesNotShow)
+{
+  for (const ErrorResult &worse :
+       {test::scaled(stored(), 1.05, only(vagina)), test::with_longer_tail(stored(), vagina, 1.1)})
+  {
+    ErrorResult current = worse;
+    current.curves.at(vagina).at(0) = stored().curves.at(vagina).at(0);
+    EXPECT_EQ(verdict_of(gate(stored(), current)), Verdict::worse);
+  }
+}
+
+TEST(Gate, CatchesANominalRunThatIsWorseAlone)
+{
+  ErrorResult current = stored();
+  for (CurvePoint &point : current.curves.at(vagina).at(0))
+  {
+    point.mean *= 1.06;
+    point.max *= 1.06;
+  }
+  EXPECT_EQ(verdict_of(gate(stored(), current)), Verdict::worse);
+}
+
+TEST(Gate, SeesASingleNumberThatChanged)
+{
+  ErrorResult current = stored();
+  current.curves.at(vagina).at(3)[5].sd *= 1.0001;
+  EXPECT_EQ(verdict_of(gate(stored(), current)), Verdict::changed);
+  current = stored();
+  current.curves.at(vagina).at(3)[5].sd *= 1 + 1e-8; // another processor
+  EXPECT_EQ(verdict_of(gate(stored(), current)), Verdict::pass);
+}
+
+TEST(Gate, FailsOnAStepThatFailsAnewInOneRun)
+{
+  ErrorResult current = stored();
+  current.runs.at({"full", 5}).n_failed = 1;
+  EXPECT_EQ(gate(stored(), current).exit_status(), 1);
+  EXPECT_EQ(gate(current, stored()).exit_status(), 0) << "one that fails no longer";
+}
+
+TEST(Gate, FailsOnAnOrganThatIsMissingOnEitherSide)
+{
+  ErrorResult without = stored();
+  without.curves.erase(vagina);
+  EXPECT_EQ(verdict_of(gate(stored(), without)), Verdict::missing);
+  EXPECT_EQ(gate(stored(), without).exit_status(), 2);
+  EXPECT_EQ(verdict_of(gate(without, stored())), Verdict::missing) << "a family without a baseline";
+  EXPECT_EQ(gate(without, stored()).exit_status(), 2);
+  ErrorResult empty = stored();
+  empty.curves.clear();
+  EXPECT_EQ(gate(empty, empty).exit_status(), 2) << "nothing against nothing is no pass";
+}
+
+TEST(Gate, FailsOnOtherAbscissae)
+{
+  const auto broken = [](const std::function<void(Curve &)> &change, const FamilyName &name)
+  {
+    ErrorResult current = stored();
+    for (auto &[sample, curve] : current.curves.at(name))
+      change(curve);
+    return gate(stored(), current);
+  };
+  const FamilyName slices{"full", "vagina", Axis::slice};
+  EXPECT_EQ(broken([](Curve &curve) { curve.pop_back(); }, vagina).exit_status(), 2) << "a step less";
+  const auto shift = [](Curve &curve)
+  {
+    for (CurvePoint &point : curve)
+      ++point.abscissa;
+  };
+  EXPECT_NE(broken(shift, slices).exit_status(), 0) << "slices shifted by one";
+  EXPECT_EQ(broken([](Curve &curve) { curve[2].offset += 0.5; }, slices).exit_status(), 2) << "another place";
+  EXPECT_EQ(broken([](Curve &curve) { curve[2].n_points *= 2; }, vagina).exit_status(), 2) << "other points";
+  EXPECT_EQ(verdict_of(broken([](Curve &curve) { curve.erase(curve.begin()); }, slices), slices), Verdict::worse)
+      << "a slice that no longer meets the organ";
+}
+
+TEST(Gate, CatchesCurvesShiftedByOneStep)
+{
+  ErrorResult late = stored();
+  for (auto &[name, family] : late.curves)
+    if (name.condition == "full" && name.axis == Axis::step)
+      for (auto &[sample, curve] : family)
+        for (std::size_t i = curve.size() - 1; i > 0; --i)
+          std::swap(curve[i].mean, curve[i - 1].mean), std::swap(curve[i].max, curve[i - 1].max);
+  EXPECT_EQ(gate(stored(), late).exit_status(), 1);
+}
+
+TEST(Gate, FailsOnOtherRuns)
+{
+  EXPECT_EQ(gate(stored(), test::first_samples(stored(), 7)).exit_status(), 2) << "a run less";
+  const ErrorResult few = test::first_samples(stored(), 3);
+  EXPECT_EQ(gate(few, few).exit_status(), 2) << "three runs prove nothing";
+}
+
+TEST(Gate, FailsOnAnotherCaseTruthOrJudge)
+{
+  ErrorResult current = stored();
+  current.case_text += "\n[other]\nkey = 1\n";
+  EXPECT_EQ(gate(stored(), current).exit_status(), 2);
+  current = stored();
+  current.case_text = "# a remark\n" + current.case_text;
+  EXPECT_EQ(gate(stored(), current).exit_status(), 0);
+  current = stored();
+  current.surface_spacing = 4;
+  EXPECT_EQ(gate(stored(), current).exit_status(), 2);
+  current = stored();
+  current.curves.at({"unregistered", "rectum", Axis::step}).at(0).back().mean *= 1.05;
+  EXPECT_EQ(verdict_of(gate(stored(), current), {"unregistered", "rectum", Axis::step}), Verdict::incomparable);
+}
+
+TEST(Gate, SaysHowManyRunsItNeedsWhereTheyCannotTell)
+{
+  const Comparison comparison = gate(stored(), test::with_noise(stored(), 0.3, 7));
+  EXPECT_NE(comparison.exit_status(), 0);
+  EXPECT_NE(comparison_table(comparison).find("runs cannot tell"), std::string::npos);
+}
+
+TEST(Gate, AddsUpSmallAcceptedLossesAgainstTheAnchor)
+{
+  const ErrorResult accepted = test::scaled(stored(), 1.03), current = test::scaled(accepted, 1.03);
+  EXPECT_EQ(compare({accepted, std::nullopt}, current).exit_status(), 0);
+  const Comparison comparison = compare({accepted, stored()}, current);
+  EXPECT_EQ(comparison.exit_status(), 1);
+  EXPECT_NE(comparison_table(comparison).find("against the anchor"), std::string::npos);
+}
+
+TEST(Gate, HoldsThePapersBoundOnlyWhereTheBaselineDoes)
+{
+  double before = 0;
+  for (const auto &[sample, curve] : stored().curves.at(vagina))
+    for (const CurvePoint &point : curve)
+      before = std::max(before, point.mean);
+  const auto at = [before](double largest) { return test::scaled(stored(), largest / before, only(vagina)); };
+  EXPECT_EQ(verdict_of(gate(at(3.9), at(4.01))), Verdict::worse) << "2.8 % more alone would pass";
+  EXPECT_EQ(verdict_of(gate(at(4.1), at(4.2))), Verdict::changed);
+}
+
+TEST(Gate, NeverFlipsWithTheSeedOfItsBootstrap)
+{
+  const Comparison bump = gate(stored(), test::with_bump(stored(), vagina, 4, 1.2));
+  for (std::uint64_t seed = 1; seed <= 50; ++seed)
+  {
+    Rule rule;
+    rule.seed = seed;
+    const ErrorResult noisy = test::with_noise(stored(), 0.01, 3);
+    EXPECT_EQ(compare({stored(), std::nullopt}, noisy, rule).exit_status(), 0) << seed;
+    EXPECT_EQ(compare({stored(), std::nullopt}, test::with_bump(noisy, vagina, 4, 1.2), rule).exit_status(), 1) << seed;
+  }
+  EXPECT_EQ(bump.exit_status(), 1);
+}
+
+TEST(Gate, EscapesHostileNamesInEveryOutput)
+{
+  ErrorResult current = test::scaled(stored(), 1.1);
+  const std::string hostile = "<script>alert('&\"|`')</script>";
+  current.case_name = hostile;
+  current.label = hostile;
+  ErrorResult baseline = stored();
+  baseline.case_name = hostile;
+  const Comparison comparison = gate(baseline, current);
+  for (const std::string &text :
+       {comparison_page(comparison), comparison_markdown(comparison), comparison_junit(comparison)})
+    EXPECT_EQ(text.find("<script"), std::string::npos);
+  for (const char *request : {"http:", "https:", "src=", "url(", "<link", "@import"})
+    EXPECT_EQ(comparison_page(comparison).find(request), std::string::npos) << request;
+}
+} // namespace
+} // namespace pelvireg::regression
