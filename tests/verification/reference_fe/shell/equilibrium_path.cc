@@ -112,6 +112,8 @@ private:
   {
     for (ComparedRow &row : comparison_.rows)
     {
+      if (comparison_.n_points >= options_.n_rows)
+        return;
       current_[load_] = row.table[0];
       if (solve(current_) < 0)
         fail("no equilibrium", row.table[0]);
@@ -165,7 +167,7 @@ private:
 
   void open_row(int row)
   {
-    if (row >= static_cast<int>(comparison_.rows.size()))
+    if (row >= std::min(static_cast<int>(comparison_.rows.size()), options_.n_rows))
       return;
     ComparedRow &opened = comparison_.rows[row];
     opened.computed.assign(comparison_.n_columns(), 0);
@@ -293,7 +295,8 @@ double CurveComparison::largest_difference(int column, bool at_displacement, dou
 {
   double largest = 0;
   for (int row = 0; row < static_cast<int>(rows.size()); ++row)
-    if (rows[row].at_displacement == at_displacement && rows[row].table[0] > begin && rows[row].table[0] <= end)
+    if (!rows[row].computed.empty() && rows[row].at_displacement == at_displacement && rows[row].table[0] > begin &&
+        rows[row].table[0] <= end)
       largest = std::max(largest, difference(row, column));
   return largest;
 }

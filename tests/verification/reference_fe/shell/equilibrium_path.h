@@ -31,6 +31,7 @@ struct PathOptions
   double largest_step = 0.05; ///< growth of load or any observed displacement, in units of its largest tabulated value
   int max_iterations = 15;    ///< of Newton's method in a step of the path: thin shells in bending take more
   int max_points = 400;
+  int n_rows = 1000; ///< the rows that are followed; those after them keep no computed numbers
   /// Is this row (from 0) compared by the loads at its displacements? All others: by the displacements at their load.
   bool (*at_displacement)(int row) = [](int) { return false; };
   PathLog log = {};
@@ -42,6 +43,7 @@ struct ComparedRow
   std::vector<double> table; ///< load factor, displacements
   bool at_displacement = false;
   /// A number a displacement column: the displacement at the row's load, or the load at the row's displacement.
+  /// Empty: not followed.
   std::vector<double> computed;
 };
 

@@ -197,11 +197,9 @@ const PathOptions dents = {.largest_step = 0.02,
 /// Rows 8 to 12, where the end folds flat: two to three times as fast.
 const PathOptions flattened = {.at_displacement = [](int row) { return row >= 8 && row <= 12; }};
 const PathOptions snap = {.first_load = 0.02, .largest_step = 0.02, .at_displacement = [](int) { return true; }};
-/// The thin roof: rows 11 to 19, where the displacement turns back, and the steep end from row 33 on are compared by
-/// their displacement.
-const PathOptions snap_back = {.first_load = 0.02, .largest_step = 0.02, .at_displacement = [](int row) {
-                                 return row < 11 || (row > 19 && row < 33);
-                               }};
+/// The thin roof: rows 11 to 19, where the displacement turns back, are compared by their displacement.
+const PathOptions snap_back = {
+    .first_load = 0.02, .largest_step = 0.02, .at_displacement = [](int row) { return row < 11 || row > 19; }};
 } // namespace
 
 const std::vector<SzeCase> &sze_cases()
@@ -234,11 +232,12 @@ std::vector<std::vector<double>> SzeCase::table() const
   return read_table(std::string(SZE2004_TABLES) + "/" + table_file);
 }
 
-CurveComparison SzeCase::compare(const CellCounts &cells, const PathLog &log) const
+CurveComparison SzeCase::compare(const CellCounts &cells, const PathLog &log, int n_rows) const
 {
   LoadedShell loaded = make(cells);
   PathOptions with_log = options;
   with_log.log = log;
+  with_log.n_rows = n_rows;
   return follow_table(loaded, table(), with_log);
 }
 } // namespace pelvireg::reference_fe
