@@ -30,7 +30,7 @@ const std::vector<Study> studies = {
     {"end shear", {8, 1, 3}, {16, 1, 3}},        {"end shear, thinner", {8, 1, 3}, {16, 1, 3}},
     {"end moment", {8, 1, 3}, {16, 1, 3}},       {"end moment, thinner", {8, 1, 3}, {16, 1, 3}},
     {"slit annulus", {24, 4, 3}, {36, 6, 3}},    {"hemisphere", {8, 8, 3}, {14, 14, 3}},
-    {"pull-out", {16, 12, 2}, {16, 12, 3}},      {"pinched cylinder", {40, 40, 1}, {24, 24, 2}},
+    {"pull-out", {16, 12, 2}, {16, 12, 3}},      {"pinched cylinder", {24, 24, 2}, {38, 26, 2}},
     {"semi-cylinder", {12, 12, 3}, {16, 16, 3}}, {"roof 12.7", {8, 8, 3}, {12, 12, 3}},
     {"roof 6.35", {12, 12, 3}, {16, 16, 3}}};
 

@@ -189,11 +189,11 @@ LoadedShell thin_roof(const CellCounts &cells)
 const PathOptions by_load = {.arc_length = false};
 /// Row 12 is where the side's snap ends: a displacement there changes more than twice as fast as the load.
 const PathOptions pulled_out = {.at_displacement = [](int row) { return row == 12; }};
-/// Row 5, where the dents at the load and at the side meet: seven times as fast.
-const PathOptions dents = {.largest_step = 0.02,
+/// Rows 4 and 5, where the dents at the load and at the side meet: five and seven times as fast.
+const PathOptions dents = {.largest_step = 0.05,
                            .max_iterations = 20,
                            .max_points = 2000,
-                           .at_displacement = [](int row) { return row == 5; }};
+                           .at_displacement = [](int row) { return row == 4 || row == 5; }};
 /// Rows 8 to 12, where the end folds flat: two to three times as fast.
 const PathOptions flattened = {.at_displacement = [](int row) { return row >= 8 && row <= 12; }};
 const PathOptions snap = {.first_load = 0.02, .largest_step = 0.02, .at_displacement = [](int) { return true; }};

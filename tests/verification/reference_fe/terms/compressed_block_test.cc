@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -139,14 +140,16 @@ TEST(CompressedBlock, DoesNotLockAsTheBulkModulusGrows)
 // Takes minutes: --gtest_also_run_disabled_tests.
 TEST(CompressedBlock, DISABLED_ConvergesWithTheMesh)
 {
-  const std::vector<double> pressures = {80, 160, 240};
-  for (const int n : {2, 4, 6, 8})
+  std::vector<double> at_160;
+  for (const int n : {2, 4, 6})
   {
-    const std::vector<double> compressions = CompressedBlock(n, 5000).compressions(pressures, 0.02);
-    std::cout << fmt::format("kappa/mu 5000, {} bricks a side: compressed by {:.4f}, {:.4f}, {:.4f}\n", n,
-                             compressions[0], compressions[1], compressions[2])
+    const std::vector<double> compressions = CompressedBlock(n, 10000).compressions({80, 160}, 0.04);
+    std::cout << fmt::format("kappa/mu 10000, {} bricks a side: compressed by {:.4f}, {:.4f}\n", n, compressions[0],
+                             compressions[1])
               << std::flush;
+    at_160.push_back(compressions[1]);
   }
+  EXPECT_LT(std::abs(at_160[2] - at_160[1]), std::abs(at_160[1] - at_160[0]));
 }
 
 // At 320 MPa Scovazzi, Zorrilla, Rossi, Comput. Methods Appl. Mech. Eng. 412 (2023) 116076 have about 0.70 (recalled).
