@@ -2,6 +2,9 @@
 
 #include "reference_fe/constraints/path_control.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -12,37 +15,43 @@ namespace pelvireg::reference_fe
 {
 namespace
 {
+SurfaceNode midsurface_node(const SingleShell &shell, int node)
+{
+  SurfaceNode point;
+  point.first_unknown = shell.unknown(node, 0);
+  point.rest = shell.body.midsurface.col(node);
+  return point;
+}
+
 std::vector<SurfaceNode> midsurface_nodes(const SingleShell &shell)
 {
-  std::vector<SurfaceNode> nodes(shell.body.n_nodes());
+  std::vector<SurfaceNode> nodes;
   for (int node = 0; node < shell.body.n_nodes(); ++node)
-  {
-    nodes[node].first_unknown = shell.unknown(node, 0);
-    nodes[node].rest = shell.body.midsurface.col(node);
-  }
+    nodes.push_back(midsurface_node(shell, node));
   return nodes;
 }
 
-std::vector<double> largest_entries(const std::vector<std::vector<double>> &table)
+/// A column that is landed on: 0 the load, 1 … the displacements.
+struct Landing
 {
-  std::vector<double> largest(table.at(0).size(), 0);
-  for (const std::vector<double> &row : table)
-    for (std::size_t k = 0; k < row.size(); ++k)
-      largest[k] = std::max(largest[k], std::abs(row[k]));
-  return largest;
-}
+  int row = 0, column = 0;
+};
 
 /// Walks from rest along the table's rows.
 class TableFollower
 {
 public:
   TableFollower(LoadedShell &loaded, const std::vector<std::vector<double>> &table, const PathOptions &options)
-      : loaded_(loaded), system_(loaded.shell->system), table_(table), scale_(largest_entries(table)), options_(options)
+      : loaded_(loaded), system_(loaded.shell->system), options_(options)
   {
+    for (std::size_t row = 0; row < table.size(); ++row)
+      comparison_.rows.push_back({table[row], options.at_displacement(static_cast<int>(row)), {}});
     load_ = system_.add_unknowns(1, {"load factor"});
     system_.add_term(loaded.load(load_));
-    control_ = std::make_shared<PathControl>(midsurface_nodes(*loaded.shell), load_);
-    system_.add_term(control_);
+    along_path_ = add_control(midsurface_nodes(*loaded.shell));
+    for (const auto &[unknown, scale] : loaded.observed)
+      at_displacement_.push_back(
+          add_control({midsurface_node(*loaded.shell, (unknown - loaded.shell->first) / n_shell_unknowns)}));
     newton_.residual_tolerance = loaded.residual_tolerance;
     newton_.max_merit_growth = 1e12;
     current_ = previous_ = Eigen::VectorXd::Zero(system_.n_unknowns());
@@ -53,7 +62,6 @@ public:
     const std::clock_t start = std::clock();
     system_.fix(load_);
     comparison_.n_unknowns = system_.n_free() + (options_.arc_length ? 1 : 0);
-    comparison_.table = table_;
     if (options_.arc_length)
       follow_by_arc_length();
     else
@@ -63,10 +71,19 @@ public:
   }
 
 private:
+  std::shared_ptr<PathControl> add_control(const std::vector<SurfaceNode> &nodes)
+  {
+    auto control = std::make_shared<PathControl>(nodes, load_);
+    system_.add_term(control);
+    return control;
+  }
+
+  /// Load factor (column 0) and observed displacements.
   std::vector<double> row_at(const Eigen::VectorXd &x) const
   {
-    std::vector<double> row = loaded_.observe(x);
-    row.insert(row.begin(), x[load_]);
+    std::vector<double> row = {x[load_]};
+    for (const auto &[unknown, scale] : loaded_.observed)
+      row.push_back(scale * x[unknown]);
     return row;
   }
 
@@ -85,14 +102,23 @@ private:
     throw std::runtime_error(what + " at the load factor " + std::to_string(at));
   }
 
+  void log(const char *what, const Eigen::VectorXd &x, int n_iterations) const
+  {
+    if (options_.log)
+      options_.log(fmt::format("{} {:.5g} ({} iterations)", what, fmt::join(row_at(x), " "), n_iterations));
+  }
+
   void follow_by_load()
   {
-    for (const std::vector<double> &row : table_)
+    for (ComparedRow &row : comparison_.rows)
     {
-      current_[load_] = row[0];
+      if (comparison_.n_points >= options_.n_rows)
+        return;
+      current_[load_] = row.table[0];
       if (solve(current_) < 0)
-        fail("no equilibrium", row[0]);
-      comparison_.computed.push_back(row_at(current_));
+        fail("no equilibrium", row.table[0]);
+      const std::vector<double> values = row_at(current_);
+      row.computed.assign(values.begin() + 1, values.end());
       ++comparison_.n_points;
     }
   }
@@ -103,26 +129,27 @@ private:
     if (solve(current_) < 0)
       fail("no equilibrium", options_.first_load);
     ++comparison_.n_points;
+    open_row(0);
     land_on_rows();
     double ratio = 1;
-    while (comparison_.computed.size() < table_.size())
+    while (!pending_.empty())
     {
       if (comparison_.n_points > options_.max_points || ratio < 0.01)
         fail("the path ends", current_[load_]);
       Eigen::VectorXd trial = current_ + ratio * (current_ - previous_);
-      system_.release(load_);
-      control_->prescribe(current_, trial);
+      hold_along_path(current_, trial);
       const int n_iterations = solve(trial, options_.max_iterations);
       if (n_iterations < 0 || growth(trial) > 2 * options_.largest_step)
       {
+        log(n_iterations < 0 ? "  no convergence" : "  too far", trial, n_iterations);
         ratio *= 0.5;
         continue;
       }
       previous_ = std::exchange(current_, trial);
       ++comparison_.n_points;
-      const double length = growth(previous_);
+      log("point", current_, n_iterations);
       ratio = std::min(2 * n_iterations > options_.max_iterations ? 0.7 : 1.5,
-                       options_.largest_step / std::max(length, 1e-12));
+                       options_.largest_step / std::max(growth(previous_), 1e-12));
       land_on_rows();
     }
   }
@@ -133,91 +160,145 @@ private:
   {
     const std::vector<double> a = row_at(current_), b = row_at(to);
     double largest = 0;
-    for (std::size_t k = 0; k < scale_.size(); ++k)
-      largest = std::max(largest, std::abs(b[k] - a[k]) / scale_[k]);
+    for (std::size_t k = 0; k < a.size(); ++k)
+      largest = std::max(largest, std::abs(b[k] - a[k]) / comparison_.largest_entry(k));
     return largest;
   }
 
-  /// Computes the rows that the last step went past.
+  void open_row(int row)
+  {
+    if (row >= std::min(static_cast<int>(comparison_.rows.size()), options_.n_rows))
+      return;
+    ComparedRow &opened = comparison_.rows[row];
+    opened.computed.assign(comparison_.n_columns(), 0);
+    if (!opened.at_displacement)
+      pending_.push_back({row, 0});
+    for (int column = 1; column <= comparison_.n_columns() && opened.at_displacement; ++column)
+      pending_.push_back({row, column});
+    last_opened_ = row;
+  }
+
+  /// Computes what the last step went past. A row is looked for once the path has come to the row before it.
   void land_on_rows()
   {
-    while (comparison_.computed.size() < table_.size())
+    for (std::size_t i = 0; i < pending_.size();)
     {
-      const int index = static_cast<int>(comparison_.computed.size());
-      const std::vector<double> &row = table_[index];
-      const std::size_t column = options_.at_displacement(index) ? 1 : 0;
-      const double before = row_at(previous_)[column], after = row_at(current_)[column];
-      if ((row[column] - before) * (row[column] - after) > 0)
-        return;
-      comparison_.computed.push_back(land(row[column], column));
+      const Landing landing = pending_[i];
+      ComparedRow &row = comparison_.rows[landing.row];
+      const double value = row.table[landing.column];
+      if ((value - row_at(previous_)[landing.column]) * (value - row_at(current_)[landing.column]) > 0)
+      {
+        ++i;
+        continue;
+      }
+      const std::vector<double> landed = land(value, landing.column);
+      if (row.at_displacement)
+        row.computed[landing.column - 1] = landed[0];
+      else
+        row.computed.assign(landed.begin() + 1, landed.end());
+      pending_.erase(pending_.begin() + static_cast<std::ptrdiff_t>(i));
+      if (landing.row == last_opened_)
+        open_row(landing.row + 1);
     }
   }
 
-  /// The state between previous and current whose load (column 0) or displacement (1) is `value`, from the line between
-  /// them; where Newton's method fails or runs away, the segment is first halved along the path.
-  std::vector<double> land(double value, std::size_t column)
+  /// The state between previous and current whose load (column 0) or displacement is `value`: Newton's method from the
+  /// line between them; where it fails or runs away, regula falsi along the path.
+  std::vector<double> land(double value, int column)
   {
     Eigen::VectorXd a = previous_, b = current_;
-    for (int halving = 0; halving < 8; ++halving)
+    for (int round = 0; round < 20; ++round)
     {
       const double before = row_at(a)[column], after = row_at(b)[column];
       const Eigen::VectorXd guess = a + (value - before) / (after - before) * (b - a);
       Eigen::VectorXd x = guess;
-      if ((column == 0 ? solve_at_load(x, value) : solve_at_displacement(x, value)) &&
-          (x - guess).norm() <= (b - a).norm())
+      hold(x, value, column);
+      const int n_iterations = solve(x, options_.max_iterations);
+      if (n_iterations >= 0 && (x - guess).norm() <= (b - a).norm())
+      {
+        log("  row", x, n_iterations);
         return row_at(x);
-      Eigen::VectorXd middle = 0.5 * (a + b);
-      system_.release(load_);
-      control_->prescribe(a, middle);
-      if (solve(middle, options_.max_iterations) < 0)
+      }
+      const double part = std::clamp((value - before) / (after - before), 0.1, 0.9);
+      Eigen::VectorXd between = a + part * (b - a);
+      hold_along_path(a, between);
+      if (solve(between, options_.max_iterations) < 0)
         break;
-      ((value - before) * (value - row_at(middle)[column]) <= 0 ? b : a) = middle;
+      const double reached = row_at(between)[column];
+      if (std::abs(reached - value) <= 1e-6 * comparison_.largest_entry(column))
+        return row_at(between);
+      ((value - before) * (value - reached) <= 0 ? b : a) = between;
     }
     fail(column == 0 ? "no equilibrium at this load" : "no equilibrium at a row's displacement", value);
   }
 
-  bool solve_at_load(Eigen::VectorXd &x, double factor)
+  void release_controls()
   {
-    system_.fix(load_);
-    x[load_] = factor;
-    return solve(x, options_.max_iterations) >= 0;
+    along_path_->release();
+    for (const std::shared_ptr<PathControl> &control : at_displacement_)
+      control->release();
+    system_.release(load_);
   }
 
-  /// The point's displacement is prescribed without any load; its reaction is the load.
-  bool solve_at_displacement(Eigen::VectorXd &x, double displacement)
+  void hold_along_path(const Eigen::VectorXd &from, const Eigen::VectorXd &predicted)
   {
-    const LoadedShell::PointLoad &point = loaded_.point_load;
-    system_.fix(load_);
-    system_.fix(point.unknown);
-    const double guess = x[load_];
-    x[load_] = 0;
-    x[point.unknown] = displacement / point.displacement_per_unknown;
-    const bool solved = solve(x, options_.max_iterations) >= 0;
-    x[load_] = solved ? system_.residual()[point.unknown] / point.force : guess;
-    system_.release(point.unknown);
-    return solved;
+    release_controls();
+    along_path_->prescribe(from, predicted);
+  }
+
+  /// The load, or a displacement: the path of a single point, along the observed axis.
+  void hold(Eigen::VectorXd &x, double value, int column)
+  {
+    release_controls();
+    if (column == 0)
+    {
+      system_.fix(load_);
+      x[load_] = value;
+      return;
+    }
+    const auto &[unknown, scale] = loaded_.observed[column - 1];
+    x[unknown] = value / scale;
+    Eigen::VectorXd from = x;
+    from[unknown] -= 1;
+    at_displacement_[column - 1]->prescribe(from, x);
   }
 
   LoadedShell &loaded_;
   EquilibriumSystem &system_;
-  const std::vector<std::vector<double>> &table_;
-  std::vector<double> scale_;
   PathOptions options_;
   NewtonOptions newton_;
-  int load_ = 0;
-  std::shared_ptr<PathControl> control_;
+  int load_ = 0, last_opened_ = -1;
+  std::shared_ptr<PathControl> along_path_;
+  std::vector<std::shared_ptr<PathControl>> at_displacement_; ///< of each observed displacement
+  std::vector<Landing> pending_;
   Eigen::VectorXd previous_, current_;
   CurveComparison comparison_;
 };
 } // namespace
 
-double CurveComparison::largest_difference(int column, double begin, double end) const
+double CurveComparison::largest_entry(std::size_t column) const
 {
   double largest = 0;
-  for (std::size_t row = 0; row < table.size(); ++row)
-    if (table[row][0] > begin && table[row][0] <= end)
-      largest = std::max(largest, std::abs(computed.at(row)[column] - table[row][column]));
-  return largest / largest_entries(table)[column];
+  for (const ComparedRow &row : rows)
+    largest = std::max(largest, std::abs(row.table[column]));
+  return largest;
+}
+
+double CurveComparison::difference(int row, int column) const
+{
+  const ComparedRow &compared = rows.at(row);
+  const std::size_t in_table = compared.at_displacement ? 0 : column + 1;
+  return std::abs(compared.computed.at(column) - compared.table[in_table]) / largest_entry(in_table);
+}
+
+double CurveComparison::largest_difference(int column, bool at_displacement, double begin, double end) const
+{
+  double largest = 0;
+  for (int row = 0; row < static_cast<int>(rows.size()); ++row)
+    if (!rows[row].computed.empty() && rows[row].at_displacement == at_displacement && rows[row].table[0] > begin &&
+        rows[row].table[0] <= end)
+      largest = std::max(largest, difference(row, column));
+  return largest;
 }
 
 CurveComparison follow_table(LoadedShell &loaded, const std::vector<std::vector<double>> &table,

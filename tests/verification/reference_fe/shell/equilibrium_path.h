@@ -17,16 +17,12 @@ struct LoadedShell
   /// The load, scaled by the unknown whose index it is given.
   std::function<std::shared_ptr<Term>(int)> load;
   double residual_tolerance = 1e-6; ///< N; looser than 1e-8 of the load, soft thin shells stop a little off
-  /// The tabulated displacements, with the table's signs.
-  std::function<std::vector<double>(const Eigen::VectorXd &)> observe;
-  /// For rows compared at their displacement: the one loaded unknown, its force at load factor 1, and the tabulated
-  /// displacement over the unknown.
-  struct PointLoad
-  {
-    int unknown = -1;
-    double force = 0, displacement_per_unknown = 1;
-  } point_load;
+  /// The tabulated displacements: unknowns of the shell, times the table's signs or units.
+  std::vector<std::pair<int, double>> observed;
 };
+
+/// Takes one line a point of the path; may be empty.
+using PathLog = std::function<void(const std::string &)>;
 
 struct PathOptions
 {
@@ -35,20 +31,37 @@ struct PathOptions
   double largest_step = 0.05; ///< growth of load or any observed displacement, in units of its largest tabulated value
   int max_iterations = 15;    ///< of Newton's method in a step of the path: thin shells in bending take more
   int max_points = 400;
-  /// Is this row (from 0) compared by the load at its displacement? All others: by the displacements at their load.
+  int n_rows = 1000; ///< the rows that are followed; those after them keep no computed numbers
+  /// Is this row (from 0) compared by the loads at its displacements? All others: by the displacements at their load.
   bool (*at_displacement)(int row) = [](int) { return false; };
+  PathLog log = {};
 };
 
-/// A table's rows (load factor, displacements) and what was computed there.
+/// A row of a table and what was computed there.
+struct ComparedRow
+{
+  std::vector<double> table; ///< load factor, displacements
+  bool at_displacement = false;
+  /// A number a displacement column: the displacement at the row's load, or the load at the row's displacement.
+  /// Empty: not followed.
+  std::vector<double> computed;
+};
+
 struct CurveComparison
 {
-  std::vector<std::vector<double>> table, computed; ///< same sizes; what was prescribed is equal in both
+  std::vector<ComparedRow> rows;
   int n_unknowns = 0, n_points = 0, n_iterations = 0;
   double cpu_seconds = 0;
 
-  /// Largest |computed - table| in a column (0: load) over the rows with begin < load <= end, as a fraction of the
-  /// column's largest entry.
-  double largest_difference(int column, double begin = -1e9, double end = 1e9) const;
+  /// |computed - table| of a displacement column (from 0), as a fraction of the column's largest entry, or of the
+  /// largest load where the row is compared at its displacement.
+  double difference(int row, int column) const;
+  /// Largest of them over the rows of one kind with begin < load <= end; 0 when there is none.
+  double largest_difference(int column, bool at_displacement, double begin = -1e9, double end = 1e9) const;
+  /// Of a table's column (0: load), absolute.
+  double largest_entry(std::size_t column) const;
+  /// Displacement columns.
+  int n_columns() const { return static_cast<int>(rows.at(0).table.size()) - 1; }
 };
 
 /// Follows the loaded shell along `table`: from rest by arc length (PathControl over the mid-surface), stopping at each

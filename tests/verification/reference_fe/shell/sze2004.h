@@ -24,18 +24,12 @@ struct SzeCase
   double bound = 5e-3, bound_beyond = 5e-3, half = 1e9;
 
   std::vector<std::vector<double>> table() const;
-  /// Follows the whole table.
-  CurveComparison compare(const CellCounts &cells) const;
+  /// Follows the table, or its first rows.
+  CurveComparison compare(const CellCounts &cells, const PathLog &log = {}, int n_rows = 1000) const;
 };
 
 /// By name: "end shear", "end moment", "slit annulus", "hemisphere", "pull-out", "pinched cylinder", "semi-cylinder",
 /// "roof 12.7", "roof 6.35".
 const std::vector<SzeCase> &sze_cases();
 const SzeCase &sze_case(const std::string &name); ///< throws std::out_of_range
-
-/// Shortening and deflection of the inextensible elastica under a dead end load, E I theta'' = -P cos(theta),
-/// theta(0) = 0, theta'(L) = 0.
-Eigen::Vector2d elastica(double load, double length, double bending_stiffness);
-/// Shortening and deflection of the inextensible circle under an end moment, turned by `angle` at its end.
-Eigen::Vector2d rolled_up(double angle, double length);
 } // namespace pelvireg::reference_fe
