@@ -1,12 +1,9 @@
 #include "validation/metrics/material_points.h"
 
 #include "synthetic/dataset/error.h"
-#include "validation/metrics/closest_point.h"
 #include "validation/metrics/surface_distance.h"
 
 #include <Eigen/Geometry>
-
-#include <limits>
 
 namespace pelvireg::metrics
 {
@@ -25,31 +22,16 @@ Eigen::Vector3d barycentric(const Eigen::Vector3d &p, const Eigen::Vector3d &a, 
 
 std::vector<SurfaceSample> closest_samples(const dataset::SurfaceMesh &rest, const dataset::Points &points)
 {
-  require_usable_surface(rest.points, rest.triangles, rest.region);
+  const SurfaceTree tree(rest.points, rest.triangles, rest.region);
   if (!points.allFinite())
     throw InputError("material points: a point is not finite; the surface they come from is broken");
   std::vector<SurfaceSample> samples;
   for (Eigen::Index i = 0; i < points.rows(); ++i)
   {
-    const Eigen::Vector3d p = points.row(i);
-    double best = std::numeric_limits<double>::infinity();
-    SurfaceSample closest;
-    for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t)
-    {
-      if (!is_scored(rest.region[t]))
-        continue;
-      const Eigen::Vector3d a = rest.points.row(rest.triangles(t, 0)), b = rest.points.row(rest.triangles(t, 1)),
-                            c = rest.points.row(rest.triangles(t, 2));
-      const Eigen::Vector3d foot = closest_point_on_triangle(p, a, b, c);
-      if (const double distance = (foot - p).squaredNorm(); distance < best)
-      {
-        best = distance;
-        closest = {static_cast<int>(t), barycentric(foot, a, b, c)};
-      }
-    }
-    if (!(best < std::numeric_limits<double>::infinity()))
-      throw InputError("material points: the surface has no scored triangle to look on; check its regions");
-    samples.push_back(closest);
+    const ClosestPoint closest = tree.closest(points.row(i));
+    const auto nodes = rest.triangles.row(closest.triangle);
+    samples.push_back({closest.triangle, barycentric(closest.position, rest.points.row(nodes[0]),
+                                                     rest.points.row(nodes[1]), rest.points.row(nodes[2]))});
   }
   return samples;
 }

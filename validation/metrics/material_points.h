@@ -6,7 +6,6 @@
 namespace pelvireg::metrics
 {
 /// The closest points of a rest surface's scored triangles (caps are left out) to each of k points (k x 3, mm): a field
-/// on the surface's nodes is taken there with sample_positions(). Every triangle is asked: made for some thousand of
-/// each. Throws InputError as SurfaceTree does.
+/// on the surface's nodes is taken there with sample_positions(). Throws InputError as SurfaceTree does.
 std::vector<SurfaceSample> closest_samples(const dataset::SurfaceMesh &rest, const dataset::Points &points);
 } // namespace pelvireg::metrics

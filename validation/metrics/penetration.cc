@@ -1,7 +1,5 @@
 #include "validation/metrics/penetration.h"
 
-#include "validation/metrics/surface_distance.h"
-
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -12,44 +10,27 @@ namespace pelvireg::metrics
 {
 namespace
 {
-std::vector<Eigen::Vector3d> probes_of(const dataset::SurfaceMesh &surface)
+std::vector<Eigen::Vector3d> probes_of(const dataset::Points &points, const dataset::Triangles &triangles,
+                                       const dataset::Integers &region)
 {
-  std::vector<char> is_scored_node(static_cast<std::size_t>(surface.points.rows()), 0);
+  std::vector<char> is_scored_node(static_cast<std::size_t>(points.rows()), 0);
   std::vector<Eigen::Vector3d> probes;
-  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t)
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
   {
-    if (!is_scored(surface.region[t]))
+    if (!is_scored(region[t]))
       continue;
     Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; ++k)
     {
-      is_scored_node[static_cast<std::size_t>(surface.triangles(t, k))] = 1;
-      centroid += surface.points.row(surface.triangles(t, k)).transpose() / 3;
+      is_scored_node[static_cast<std::size_t>(triangles(t, k))] = 1;
+      centroid += points.row(triangles(t, k)).transpose() / 3;
     }
     probes.push_back(centroid);
   }
-  for (Eigen::Index node = 0; node < surface.points.rows(); ++node)
+  for (Eigen::Index node = 0; node < points.rows(); ++node)
     if (is_scored_node[static_cast<std::size_t>(node)])
-      probes.push_back(surface.points.row(node).transpose());
+      probes.push_back(points.row(node).transpose());
   return probes;
-}
-
-void probe(const std::vector<Eigen::Vector3d> &probes, const dataset::SurfaceMesh &other, Penetration &result)
-{
-  const SurfaceTree tree(other.points, other.triangles, other.region);
-  const Eigen::AlignedBox3d box(other.points.colwise().minCoeff().transpose(),
-                                other.points.colwise().maxCoeff().transpose());
-  for (const Eigen::Vector3d &p : probes)
-  {
-    if (!box.contains(p) || !is_inside(p, other.points, other.triangles))
-      continue;
-    ++result.n_inside;
-    if (const double depth = tree.distance(p); !(depth <= result.depth))
-    {
-      result.depth = depth;
-      result.at = p;
-    }
-  }
 }
 } // namespace
 
@@ -67,13 +48,39 @@ bool is_inside(const Eigen::Vector3d &p, const dataset::Points &points, const da
   return solid_angle > 2 * std::numbers::pi;
 }
 
+ProbedSurface::ProbedSurface(const dataset::Points &points, const dataset::Triangles &triangles,
+                             const dataset::Integers &region)
+    : tree_(points, triangles, region), inside_(points, triangles), probes_(probes_of(points, triangles, region)),
+      lower_(points.colwise().minCoeff().transpose()), upper_(points.colwise().maxCoeff().transpose())
+{
+}
+
+void ProbedSurface::probe(const ProbedSurface &other, Penetration &result) const
+{
+  for (const Eigen::Vector3d &p : probes_)
+  {
+    if ((p.array() < other.lower_.array()).any() || (p.array() > other.upper_.array()).any() ||
+        !other.inside_.is_inside(p))
+      continue;
+    ++result.n_inside;
+    if (const double depth = other.tree_.distance(p); !(depth <= result.depth))
+    {
+      result.depth = depth;
+      result.at = p;
+    }
+  }
+}
+
+Penetration penetration(const ProbedSurface &a, const ProbedSurface &b)
+{
+  Penetration result;
+  a.probe(b, result);
+  b.probe(a, result);
+  return result;
+}
+
 Penetration penetration(const dataset::SurfaceMesh &a, const dataset::SurfaceMesh &b)
 {
-  for (const dataset::SurfaceMesh *surface : {&a, &b})
-    require_usable_surface(surface->points, surface->triangles, surface->region);
-  Penetration result;
-  probe(probes_of(a), b, result);
-  probe(probes_of(b), a, result);
-  return result;
+  return penetration(ProbedSurface(a.points, a.triangles, a.region), ProbedSurface(b.points, b.triangles, b.region));
 }
 } // namespace pelvireg::metrics

@@ -57,6 +57,7 @@ SurfaceTree::SurfaceTree(const dataset::Points &points, const dataset::Triangles
       for (int k = 0; k < 3; ++k)
         corners.row(k) = points.row(triangles(t, k));
       unsorted_corners_.push_back(corners);
+      unsorted_rows_.push_back(static_cast<int>(t));
     }
   if (unsorted_corners_.empty())
     throw InputError("surface: every triangle is a cap, so there is nothing to measure to; check the regions");
@@ -66,7 +67,8 @@ SurfaceTree::SurfaceTree(const dataset::Points &points, const dataset::Triangles
   nodes_.reserve(2 * order.size());
   nodes_.emplace_back();
   split(0, order, 0, static_cast<int>(order.size()));
-  unsorted_corners_.clear();
+  unsorted_corners_ = {};
+  unsorted_rows_ = {};
 }
 
 void SurfaceTree::split(int node, std::vector<int> &order, int begin, int end)
@@ -86,7 +88,10 @@ void SurfaceTree::split(int node, std::vector<int> &order, int begin, int end)
     nodes_[static_cast<std::size_t>(node)].first = static_cast<int>(corners_.size());
     nodes_[static_cast<std::size_t>(node)].n = end - begin;
     for (int i = begin; i < end; ++i)
+    {
       corners_.push_back(unsorted_corners_[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])]);
+      rows_.push_back(unsorted_rows_[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])]);
+    }
     return;
   }
 
@@ -107,8 +112,9 @@ void SurfaceTree::split(int node, std::vector<int> &order, int begin, int end)
   split(left + 1, order, middle, end);
 }
 
-double SurfaceTree::distance(const Eigen::Vector3d &p) const
+ClosestPoint SurfaceTree::closest(const Eigen::Vector3d &p) const
 {
+  ClosestPoint found;
   double best = std::numeric_limits<double>::infinity();
   std::array<int, 64> stack; // halving: the depth stays below log2 of the triangle count
   stack[0] = 0;
@@ -121,7 +127,12 @@ double SurfaceTree::distance(const Eigen::Vector3d &p) const
     {
       const Eigen::Matrix3d &corners = corners_[static_cast<std::size_t>(i)];
       const Eigen::Vector3d foot = closest_point_on_triangle(p, corners.row(0), corners.row(1), corners.row(2));
-      best = std::min(best, (foot - p).squaredNorm());
+      if (const double squared_distance = (foot - p).squaredNorm(); squared_distance < best)
+      {
+        best = squared_distance;
+        found.position = foot;
+        found.triangle = rows_[static_cast<std::size_t>(i)];
+      }
     }
     if (node.n > 0)
       continue;
@@ -132,21 +143,26 @@ double SurfaceTree::distance(const Eigen::Vector3d &p) const
     stack[static_cast<std::size_t>(n_stacked++)] = left_is_nearer ? node.first + 1 : node.first;
     stack[static_cast<std::size_t>(n_stacked++)] = left_is_nearer ? node.first : node.first + 1;
   }
-  return std::sqrt(best);
+  found.distance = std::sqrt(best);
+  return found;
 }
 
-std::vector<double> surface_distances(const dataset::Points &samples, const dataset::Points &points,
-                                      const dataset::Triangles &triangles, const dataset::Integers &region)
+std::vector<double> surface_distances(const dataset::Points &samples, const SurfaceTree &surface)
 {
   if (samples.rows() == 0)
     throw InputError("surface distance: got no samples, at least one is needed");
   if (!samples.allFinite())
     throw InputError("surface distance: a sample's position is not finite; the truth's displacements are broken");
-  const SurfaceTree tree(points, triangles, region);
   std::vector<double> distances;
   distances.reserve(static_cast<std::size_t>(samples.rows()));
   for (Eigen::Index i = 0; i < samples.rows(); ++i)
-    distances.push_back(tree.distance(samples.row(i)));
+    distances.push_back(surface.distance(samples.row(i)));
   return distances;
+}
+
+std::vector<double> surface_distances(const dataset::Points &samples, const dataset::Points &points,
+                                      const dataset::Triangles &triangles, const dataset::Integers &region)
+{
+  return surface_distances(samples, SurfaceTree(points, triangles, region));
 }
 } // namespace pelvireg::metrics

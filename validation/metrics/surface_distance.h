@@ -14,6 +14,14 @@ bool is_scored(std::int32_t region);
 void require_usable_surface(const dataset::Points &points, const dataset::Triangles &triangles,
                             const dataset::Integers &region);
 
+/// The point of a surface closest to another.
+struct ClosestPoint
+{
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< mm
+  double distance = 0;                                ///< mm
+  int triangle = -1;                                  ///< row of the triangles that the tree was made of, 0-based
+};
+
 /// The scored triangles of a surface in a tree of bounding boxes: exact closest-point queries.
 class SurfaceTree
 {
@@ -23,8 +31,12 @@ public:
   /// and when only caps are there.
   SurfaceTree(const dataset::Points &points, const dataset::Triangles &triangles, const dataset::Integers &region);
 
-  /// Distance of p to the closest triangle, mm, exact to round-off.
-  double distance(const Eigen::Vector3d &p) const;
+  /// The closest point, exact to round-off. Of two triangles as close the one that comes first in the tree, whose order
+  /// depends on the surface alone.
+  ClosestPoint closest(const Eigen::Vector3d &p) const;
+
+  /// Distance of p to the closest triangle, mm.
+  double distance(const Eigen::Vector3d &p) const { return closest(p).distance; }
 
 private:
   struct Node
@@ -36,12 +48,15 @@ private:
   void split(int node, std::vector<int> &order, int begin, int end);
 
   std::vector<Eigen::Matrix3d> corners_; ///< one corner a row, in leaf order
+  std::vector<int> rows_;                ///< row of each of them in the surface's triangles
   std::vector<Eigen::Matrix3d> unsorted_corners_;
+  std::vector<int> unsorted_rows_;
   std::vector<Node> nodes_;
 };
 
 /// Distance of each of k samples (k x 3, mm) to the closest scored triangle. One-sided: it says nothing of parts of the
 /// surface that no sample is near. Throws InputError for no samples, positions that are not finite, a broken surface.
+std::vector<double> surface_distances(const dataset::Points &samples, const SurfaceTree &surface);
 std::vector<double> surface_distances(const dataset::Points &samples, const dataset::Points &points,
                                       const dataset::Triangles &triangles, const dataset::Integers &region);
 } // namespace pelvireg::metrics
