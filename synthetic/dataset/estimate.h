@@ -56,12 +56,21 @@ struct Perturbation
   bool operator==(const Perturbation &) const = default;
 };
 
+/// All nodes of one body of the registration, those inside too: what became of its elements.
+struct BodyNodes
+{
+  std::string name;
+  Points rest; ///< n x 3, mm, in the order of the body's nodes in the anatomy
+  Points last; ///< n x 3, mm, at the last step
+};
+
 /// One run of the registration.
 struct EstimateSample
 {
   int sample = 0;                        ///< 0 is the nominal run
   std::vector<EstimateSurface> surfaces; ///< organ_names in order
   std::vector<StepRecord> steps;
+  std::vector<BodyNodes> bodies; ///< those that take part; empty when they were not kept
 };
 
 /// Content of estimate-<label>.h5.

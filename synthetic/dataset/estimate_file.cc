@@ -149,6 +149,31 @@ void write_own_rest(GroupWriter &group, const EstimateSample &sample, const std:
     }
 }
 
+void write_bodies(GroupWriter group, const std::vector<BodyNodes> &bodies)
+{
+  std::vector<std::string> names;
+  for (const BodyNodes &body : bodies)
+  {
+    names.push_back(body.name);
+    GroupWriter entry = group.group(body.name);
+    entry.array("rest", body.rest);
+    entry.array("last", body.last);
+  }
+  group.texts("names", names);
+}
+
+std::vector<BodyNodes> read_bodies(const GroupReader &group)
+{
+  std::vector<BodyNodes> bodies;
+  for (const std::string &name : group.texts("names"))
+  {
+    const GroupReader entry = group.group(name);
+    const auto rest = entry.array<Points>("rest");
+    bodies.push_back({name, rest, entry.array<Points>("last", rest.rows())});
+  }
+  return bodies;
+}
+
 /// Of a file without the group, written before there was one, only the moduli can have been drawn.
 Perturbation perturbation_of(const GroupReader &root)
 {
@@ -184,6 +209,8 @@ void EstimateWriter::add(const EstimateSample &sample)
   GroupWriter positions = group.group("positions");
   for (const EstimateSurface &surface : sample.surfaces)
     positions.stack(surface.name, surface.positions);
+  if (!sample.bodies.empty())
+    write_bodies(group.group("bodies"), sample.bodies);
   numbers_.push_back(sample.sample);
 }
 
@@ -230,6 +257,8 @@ EstimateSample EstimateReader::sample(std::int32_t number) const
   for (EstimateSurface &surface : sample.surfaces)
     surface.positions =
         positions.stack(surface.name, static_cast<std::int64_t>(sample.steps.size()), surface.rest.points.rows());
+  if (group.has("bodies"))
+    sample.bodies = read_bodies(group.group("bodies"));
   return sample;
 }
 } // namespace pelvireg::dataset

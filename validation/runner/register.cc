@@ -209,6 +209,9 @@ dataset::EstimateSample RegistrationRuns::play(int sample, std::vector<double> &
       step_done();
     }
   }
+  for (std::size_t body = 0; body < model.bodies.size(); ++body)
+    run.bodies.push_back(
+        {model.bodies[body].name, model.bodies[body].points, registration.positions(static_cast<int>(body))});
   return run;
 }
 

@@ -159,6 +159,11 @@ TEST(EstimateFile, ComesBackExactlyForEverySample)
   EXPECT_EQ(loaded.samples[1].steps.at(1).status, saved.samples[1].steps[1].status);
   EXPECT_EQ(loaded.samples[1].steps.at(1).offered_control_points, 77);
   EXPECT_EQ(loaded.perturbation, saved.perturbation);
+  EXPECT_TRUE(loaded.samples[0].bodies.empty()) << "not kept";
+  ASSERT_EQ(loaded.samples[1].bodies.size(), 2u);
+  EXPECT_EQ(loaded.samples[1].bodies[1].name, "ligaments");
+  EXPECT_EQ(loaded.samples[1].bodies[1].rest, saved.samples[1].bodies[1].rest);
+  EXPECT_EQ(loaded.samples[1].bodies[1].last, saved.samples[1].bodies[1].last);
   EXPECT_EQ(loaded.label(), "no_boundary_conditions_surface");
 }
 

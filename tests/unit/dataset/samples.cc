@@ -211,6 +211,9 @@ Estimate sample_estimate()
                     {7, 3.5}}};
     if (sample > 0)
       entry.surfaces[1].rest.points.array() += 0.5;
+    if (sample == 7)
+      entry.bodies = {{"uterus", points_from(6, 2), points_from(6, 3)},
+                      {"ligaments", points_from(4, 5), points_from(4, 6)}};
     estimate.samples.push_back(entry);
   }
   return estimate;

@@ -2,6 +2,7 @@
 
 #include "synthetic/dataset/error.h"
 #include "tests/unit/validation/fixtures/sphere_case.h"
+#include "validation/runner/outer_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -171,6 +172,23 @@ TEST(RunRegistration, PlaysEachPositionThreeTimesAndFollowsTheOutline)
   {
     ASSERT_EQ(surface.positions.size(), 3u);
     EXPECT_NEAR(mean_motion(surface), 1.0, surface.name == "vagina" ? 0.5 : 0.1) << surface.name;
+  }
+}
+
+TEST(RunRegistration, KeepsEveryNodeOfEveryBodyAtTheLastStep)
+{
+  const dataset::EstimateSample run = run_cubes("full", 0, 1).samples[0];
+  const dataset::Anatomy anatomy = cube_anatomy();
+  ASSERT_EQ(run.bodies.size(), anatomy.registration.bodies.size());
+  for (std::size_t body = 0; body < run.bodies.size(); ++body)
+  {
+    EXPECT_EQ(run.bodies[body].name, anatomy.registration.bodies[body].name);
+    EXPECT_EQ(run.bodies[body].rest, anatomy.registration.bodies[body].points);
+    if (body < run.surfaces.size())
+    {
+      EXPECT_EQ(outer_surface(anatomy.registration.bodies[body]).pick(run.bodies[body].last),
+                run.surfaces[body].positions.back());
+    }
   }
 }
 
