@@ -97,6 +97,51 @@ TEST(Judge, RejectsAnEmptySurfaceAndAnIndexOutOfRange)
                  "the truth's vagina: surface: triangle indices");
 }
 
+TEST(Judge, RejectsAnOpenSurface)
+{
+  const auto open = [](dataset::SurfaceMesh &mesh)
+  {
+    mesh.triangles.conservativeResize(mesh.triangles.rows() - 1, 3);
+    mesh.region.conservativeResize(mesh.region.size() - 1);
+  };
+  expect_failure([&](Inputs &in) { open(in.truth.surfaces[3].rest); }, "the truth's rectum: surface: it is open");
+  expect_failure([&](Inputs &in) { open(in.estimates[0].samples[0].surfaces[0].rest); },
+                 "bladder: surface: it is open");
+}
+
+TEST(Judge, RejectsAnOrganThatHasFlownApartAndNamesTheRun)
+{
+  expect_failure([](Inputs &in) { in.estimates[0].samples[0].surfaces[1].positions.back() *= 1e5; },
+                 "evaluate: condition 'full', sample 0, step 6: volume in common");
+}
+
+TEST(Judge, RejectsElementsThatCannotBe)
+{
+  const auto with_elements = [](Inputs &in)
+  {
+    in.anatomy.registration.bodies[0].tets.resize(1, 4);
+    in.anatomy.registration.bodies[0].tets << 0, 1, 2, 3;
+    in.anatomy.registration.bodies[0].points.topRows(4) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+    in.anatomy.registration.bodies[0].outer_triangles = test::sphere_anatomy().registration.bodies[0].outer_triangles;
+    const dataset::Points nodes = in.anatomy.registration.bodies[0].points;
+    in.estimates[0].samples[0].bodies = {{"bladder", nodes, nodes}};
+  };
+  expect_failure(
+      [&](Inputs &in)
+      {
+        with_elements(in);
+        in.estimates[0].samples[0].bodies[0].last(2, 1) = std::nan("");
+      },
+      "elements: got 643 nodes at rest and 643 deformed, must be as many and finite");
+  expect_failure(
+      [&](Inputs &in)
+      {
+        with_elements(in);
+        in.estimates[0].samples[0].bodies[0].name = "spleen";
+      },
+      "body 'spleen' is missing");
+}
+
 TEST(Judge, RejectsAnEmptyContourInTheDynPlane)
 {
   expect_failure([](Inputs &in) { in.estimates[0].samples[0].surfaces[2].positions.back().col(0).array() += 50; },

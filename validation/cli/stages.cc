@@ -154,7 +154,8 @@ void make_errors(ResultDirectory &directory, int jobs)
        .code = {"validation/metrics", "validation/runner", "synthetic/dataset"},
        .options = options,
        .inputs = inputs,
-       .outputs = {"errors_by_step.csv", "errors_by_slice.csv", "curves_by_step.csv", "curves_by_slice.csv",
+       .outputs = {"errors_by_step.csv", "errors_by_slice.csv", "metrics_by_step.csv", "errors_by_distance.csv",
+                   "curves_by_step.csv", "curves_by_slice.csv",
                    "summary.json", "error_table.txt", "condition_table.txt"},
        .work = [&](Progress &progress) -> Notes
        {

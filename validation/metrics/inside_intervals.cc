@@ -15,6 +15,8 @@ namespace pelvireg::metrics
 {
 namespace
 {
+constexpr double farthest_in_spacings = 2000;
+
 struct Crossing
 {
   std::int64_t line;
@@ -118,9 +120,12 @@ void require_usable(const dataset::Points &points, const dataset::Triangles &tri
     throw InputError(fmt::format("volume in common: {} triangles over {} points, there must be some and their nodes in "
                                  "range",
                                  triangles.rows(), points.rows()));
-  // Beyond it lines cannot be counted; no body in millimetres is that large.
-  if (!points.allFinite() || !(points.cwiseAbs().maxCoeff() < 1e6 * spacing))
-    throw InputError("volume in common: a position is not finite or far beyond any body; the positions are broken");
+  // The crossings of a surface that has flown apart would fill the memory.
+  if (!points.allFinite() || !(points.cwiseAbs().maxCoeff() <= farthest_in_spacings * spacing))
+    throw InputError(
+        fmt::format("volume in common: a position is not finite or farther than {} mm from the origin; the "
+                    "positions are broken",
+                    farthest_in_spacings * spacing));
 }
 } // namespace
 

@@ -18,7 +18,8 @@ class InsideIntervals
 {
 public:
   /// points: n x 3, mm; triangles: m x 3, 0-based, closed, normals outward. Throws InputError for a spacing that is not
-  /// positive, a position that is not finite, and a surface that a line enters without leaving.
+  /// positive, a position that is not finite or farther than 2000 spacings from the origin, and a surface that a line
+  /// enters without leaving.
   InsideIntervals(const dataset::Points &points, const dataset::Triangles &triangles, double spacing);
 
   double spacing() const { return spacing_; } ///< mm

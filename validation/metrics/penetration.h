@@ -28,6 +28,9 @@ public:
   /// Throws InputError as SurfaceTree does.
   ProbedSurface(const dataset::Points &points, const dataset::Triangles &triangles, const dataset::Integers &region);
 
+  /// Its scored triangles.
+  const SurfaceTree &tree() const { return tree_; }
+
 private:
   friend Penetration penetration(const ProbedSurface &a, const ProbedSurface &b);
   void probe(const ProbedSurface &other, Penetration &result) const;

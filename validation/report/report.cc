@@ -27,7 +27,8 @@ std::string millimetres(const runner::Aggregate &value)
 
 std::string error_table_html(const runner::Evaluation &evaluation)
 {
-  std::vector<std::string> heading = {"Mean surface error (mm)"};
+  std::vector<std::string> heading = {evaluation.is_inverse_crime ? "Mean surface error (mm), inverse crime"
+                                                                  : "Mean surface error (mm)"};
   heading.insert(heading.end(), organ_names.begin(), organ_names.end());
   std::vector<std::string> mesh_difference = {"meshes at rest, before any motion"};
   for (const runner::OrganMotion &organ : evaluation.motion)
@@ -180,7 +181,10 @@ std::string report_html(const ReportInputs &inputs)
   const auto claims = runner::assess_claims(evaluation, inputs.timings);
   const std::string title = "Registration of pelvic organs from one image plane: case " + evaluation.case_name;
   std::string html = page_head(title);
-  html += "<h1>" + escape(title) + "</h1>\n" + verdict_sentence(claims) + error_table_html(evaluation);
+  html += "<h1>" + escape(title) + "</h1>\n";
+  if (evaluation.is_inverse_crime)
+    html += "<p class=\"lead\"><b>" + escape(runner::inverse_crime_notice(evaluation)) + "</b></p>\n";
+  html += verdict_sentence(claims) + error_table_html(evaluation);
   html += "<p>The paper's bound for every organ and step: below 4 mm. ± is the standard deviation between runs.</p>\n";
   html += "<h2>The paper's claims</h2>\n" + claims_html(claims);
   html += "<h2>Error by step</h2>\n" + error_by_step_figure(evaluation);

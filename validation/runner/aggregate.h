@@ -27,10 +27,51 @@ std::vector<Aggregate> error_by_step(const Evaluation &evaluation, const std::st
 std::vector<std::optional<Aggregate>> error_by_slice(const Evaluation &evaluation, const std::string &condition,
                                                      const std::string &organ);
 
-/// Least-squares slope of the mean contour error against the distance from the DYN plane, mm/mm. Nothing for fewer than
-/// two distances.
-std::optional<double> slope_with_distance(const Evaluation &evaluation, const std::string &condition,
-                                          const std::string &organ);
+/// A slice counts for the growth of the error with the distance when its section of the truth's organ is at least this
+/// share of the organ's largest one. Where a plane meets a surface at an angle a, a distance normal to the surface is
+/// seen 1 / sin(a) times too large in the plane, without bound where the plane grazes the organ. On a ball the section
+/// is proportional to sin^2(a), on a tube that lies along the plane to sin(a): from half of the largest section on, at
+/// most twice as much is seen.
+inline constexpr double least_section_share = 0.5;
+
+/// Does the slice count? No for a slice whose section is not known.
+bool counts_for_growth(const Evaluation &evaluation, const std::string &organ, int slice_index);
+
+/// Growth of the mean contour error with the distance from the DYN plane.
+struct Slope
+{
+  double value = 0;   ///< mm/mm, least squares
+  int n_slices = 0;   ///< that it was fitted to
+  int n_left_out = 0; ///< with an error that do not count
+};
+
+/// Over the slices that count, or over all of them. Nothing for fewer than two distances.
+std::optional<Slope> slope_with_distance(const Evaluation &evaluation, const std::string &condition,
+                                         const std::string &organ, bool all_slices = false);
+
+/// One figure of StepMetrics, as it is called in metrics_by_step.csv and summary.json.
+struct MetricFigure
+{
+  const char *name; ///< with its unit
+  double (*value)(const StepMetrics &);
+};
+
+/// All of them, in the order of the columns.
+const std::vector<MetricFigure> &metric_figures();
+
+/// A figure at the last step over the runs. Nothing when the condition was not judged.
+std::optional<Aggregate> metric_at_last_step(const Evaluation &evaluation, const std::string &condition,
+                                             const std::string &organ, const MetricFigure &figure);
+
+/// Surface and material-point error by slab at the last step, over the runs that have samples in it (all of one rest
+/// shape do).
+struct DistanceAggregate
+{
+  int bin = 0; ///< DistanceError::bin
+  Aggregate surface, material;
+};
+std::vector<DistanceAggregate> error_by_distance(const Evaluation &evaluation, const std::string &condition,
+                                                 const std::string &organ);
 
 /// Was the condition judged?
 bool has_condition(const Evaluation &evaluation, const std::string &condition);

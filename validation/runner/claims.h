@@ -20,6 +20,10 @@ struct ClaimVerdict
   std::string verdict;
 };
 
-/// All claims in the order of DESIGN 5.3. Numbers only from `evaluation` and `timings`.
+/// What every table of errors must say when the registration itself made the truth; empty otherwise.
+std::string inverse_crime_notice(const Evaluation &evaluation);
+
+/// All claims in the order of DESIGN 5.3. Numbers only from `evaluation` and `timings`. Each is marked in
+/// `ours` when the registration itself made the truth.
 std::vector<ClaimVerdict> assess_claims(const Evaluation &evaluation, const std::vector<StepTiming> &timings);
 } // namespace pelvireg::runner

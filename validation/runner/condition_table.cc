@@ -2,6 +2,7 @@
 
 #include "synthetic/dataset/geometry.h"
 #include "validation/runner/aggregate.h"
+#include "validation/runner/claims.h"
 
 #include <fmt/format.h>
 
@@ -84,6 +85,8 @@ std::string condition_table(const Evaluation &evaluation)
       "Conditions of case {}: error and its ratio to full. Residual: mean distance to the outlines in the\n"
       "image plane, mm; a ratio needs at most {} mm, {:.0f} % accepted control points and no failed step.\n\n",
       evaluation.case_name, largest_residual, 100 * least_acceptance);
+  if (evaluation.is_inverse_crime)
+    text += inverse_crime_notice(evaluation) + "\n\n";
   text += heading();
   for (const std::string &condition : evaluation.conditions)
     text += condition == unregistered ? unregistered_row(evaluation) : row(evaluation, condition);

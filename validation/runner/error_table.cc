@@ -2,7 +2,9 @@
 
 #include "synthetic/dataset/geometry.h"
 #include "validation/runner/aggregate.h"
+#include "validation/runner/aims.h"
 #include "validation/runner/claims.h"
+#include "validation/runner/condition_table.h"
 
 #include <fmt/format.h>
 
@@ -41,9 +43,11 @@ double largest(const std::vector<Aggregate> &by_step)
   return value;
 }
 
-std::string header(const std::string &title)
+/// Every block of figures carries the mark.
+std::string header(const Evaluation &evaluation, const std::string &title)
 {
-  std::string line = fmt::format("{:<34}", title);
+  std::string line = evaluation.is_inverse_crime ? "[inverse crime: the registration made this truth]\n" : "";
+  line += fmt::format("{:<34}", title);
   for (const std::string &organ : organ_names)
     line += fmt::format("{:>{}}", organ, column);
   return line + "\n";
@@ -62,9 +66,17 @@ std::string mesh_difference(const Evaluation &evaluation)
   return line + "\n";
 }
 
+/// In the image plane, beside every condition's error: no ratio should come from a broken ablation.
+std::string residual(const OutlineFit &fit)
+{
+  return fmt::format("{:>13.3f}{}", fit.residual, fit.is_followed() ? "" : " !");
+}
+
 std::string surface_errors(const Evaluation &evaluation)
 {
-  std::string text = header("Mean surface error, mm") + mesh_difference(evaluation);
+  std::string text = header(evaluation, "Mean surface error, mm");
+  text.back() = ' ';
+  text += "residual, mm\n" + mesh_difference(evaluation);
   for (const std::string &condition : evaluation.conditions)
   {
     std::string last = fmt::format("{:<34}", condition + ", last step");
@@ -79,6 +91,8 @@ std::string surface_errors(const Evaluation &evaluation)
       reduction += nothing > 0 ? fmt::format("{:>{}.0f}", 100 * (1 - by_step.back().mean / nothing), column)
                                : fmt::format("{:>{}}", "-", column);
     }
+    if (condition != unregistered)
+      last += residual(outline_fit(evaluation, condition));
     text += last + "\n" + worst + "\n" + (condition == unregistered ? "" : reduction + "\n");
   }
   return text;
@@ -94,8 +108,62 @@ std::string motion(const Evaluation &evaluation)
     off_plane +=
         fmt::format("{:>{}}", fmt::format("{:.2f} / {:.2f}", organ.mean_off_plane, organ.max_off_plane), column);
   }
-  return header("Motion of the truth, mm") + mean + "\n" + off_plane + "\n" +
+  return header(evaluation, "Motion of the truth, mm") + mean + "\n" + off_plane + "\n" +
          fmt::format("mean vaginal in-plane displacement {:.2f} mm\n", evaluation.vaginal_displacement);
+}
+
+struct MetricRow
+{
+  const char *title;
+  const char *figure; ///< of metric_figures()
+  int n_digits;
+};
+constexpr MetricRow metric_rows[] = {{"  material points, mm", "material_mean_mm", 2},
+                                     {"    along the surface, mm", "tangential_mean_mm", 2},
+                                     {"  symmetric, mm", "symmetric_mean_mm", 2},
+                                     {"  95 % Hausdorff, mm", "hd95_mm", 2},
+                                     {"  Dice", "dice", 3},
+                                     {"  volume change, %", "volume_change_percent", 1},
+                                     {"    of the truth, %", "truth_volume_change_percent", 1},
+                                     {"  rotation error, rad", "rotation_error_rad", 3}};
+
+std::string metrics_beyond(const Evaluation &evaluation)
+{
+  std::string text = header(evaluation, "Beyond surface distance, last step");
+  for (const std::string &condition : evaluation.conditions)
+  {
+    text += condition + "\n";
+    for (const MetricRow &row : metric_rows)
+    {
+      text += fmt::format("{:<34}", row.title);
+      for (const MetricFigure &figure : metric_figures())
+        if (figure.name == std::string(row.figure))
+          for (const std::string &organ : organ_names)
+          {
+            const auto value = metric_at_last_step(evaluation, condition, organ, figure);
+            text += value ? fmt::format("{:>{}.{}f}", value->mean, column, row.n_digits)
+                          : fmt::format("{:>{}}", "-", column);
+          }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+std::string elements(const Evaluation &evaluation, const std::string &condition)
+{
+  const BodyElements *worst = nullptr;
+  int n_inverted = 0;
+  for (const BodyElements &body : evaluation.elements)
+    if (body.condition == condition)
+    {
+      n_inverted += body.jacobian.n_inverted;
+      if (!worst || body.jacobian.smallest < worst->jacobian.smallest)
+        worst = &body;
+    }
+  return worst ? fmt::format("{}: smallest element Jacobian {:.3f} ({}, run {}), {} inverted\n", condition,
+                             worst->jacobian.smallest, worst->body, worst->sample, n_inverted)
+               : "";
 }
 
 std::string quality(const Evaluation &evaluation, const std::vector<StepTiming> &timings)
@@ -103,31 +171,27 @@ std::string quality(const Evaluation &evaluation, const std::vector<StepTiming> 
   std::string text;
   for (const std::string &condition : evaluation.conditions)
   {
-    int n_failed = 0, n_steps = 0;
-    double acceptance = 1, residual = 0;
-    for (const RunQuality &run : evaluation.quality)
-      if (run.condition == condition)
-      {
-        n_failed += run.n_failed_steps;
-        n_steps += run.n_steps;
-        acceptance = std::min(acceptance, run.least_acceptance);
-        residual = std::max(residual, run.largest_mean_residual);
-      }
-    if (n_steps == 0)
+    const OutlineFit fit = outline_fit(evaluation, condition);
+    if (fit.n_steps == 0)
       continue;
-    text +=
-        fmt::format("{}: {} of {} steps failed, control points accepted at least {:.1f} %, mean in-plane residual at "
-                    "most {:.3f} mm\n",
-                    condition, n_failed, n_steps, 100 * acceptance, residual);
+    text += wrap(fmt::format("{}: {} of {} steps failed, control points accepted at least {:.1f} %, mean in-plane "
+                             "residual at most {:.3f} mm{}",
+                             condition, fit.n_failed_steps, fit.n_steps, 100 * fit.acceptance, fit.residual,
+                             fit.is_followed() ? "" : " (! does not follow the image: it gives no ratio)"),
+                 2) +
+            elements(evaluation, condition);
   }
   for (const std::string &condition : evaluation.conditions)
   {
-    double deepest = 0;
+    double deepest = 0, volume = 0;
     for (const OrganPenetration &pair : evaluation.penetrations)
       if (pair.condition == condition && !pair.is_attached)
+      {
         deepest = std::max(deepest, pair.deepest);
-    text +=
-        fmt::format("{}: organs that are not attached reach at most {:.2f} mm into each other\n", condition, deepest);
+        volume = std::max(volume, pair.largest_volume);
+      }
+    text += fmt::format("{}: organs that are not attached reach at most {:.2f} mm and {:.0f} mm3 into each other\n",
+                        condition, deepest, volume);
   }
   for (const StepTiming &timing : timings)
     text += fmt::format("{}: median {:.2f} ms a step, 95th percentile {:.2f} ms\n", timing.condition, timing.median_ms,
@@ -140,9 +204,15 @@ std::string error_table(const Evaluation &evaluation, const std::vector<StepTimi
 {
   std::string text = fmt::format("Case {}, {} steps. The paper's bound: < 4 mm at every step.\n\n",
                                  evaluation.case_name, evaluation.n_steps());
-  text += surface_errors(evaluation) + "\n" + motion(evaluation) + "\n" + quality(evaluation, timings) + "\n";
+  if (evaluation.is_inverse_crime)
+    text += wrap(inverse_crime_notice(evaluation), 0) + "\n";
+  text += surface_errors(evaluation) + "\n" + metrics_beyond(evaluation) + "\n" + motion(evaluation) + "\n" +
+          quality(evaluation, timings) + "\n";
   for (const ClaimVerdict &claim : assess_claims(evaluation, timings))
     text += wrap(fmt::format("{:<14}{}: paper {}, ours {}", claim.verdict, claim.id, claim.paper, claim.ours), 14);
+  text += "\n";
+  for (const Aim &aim : assess_aims(evaluation))
+    text += wrap(fmt::format("{:<14}{}: {}, ours {}", aim.verdict, aim.id, aim.aim, aim.ours), 14);
   return text;
 }
 } // namespace pelvireg::runner

@@ -1,6 +1,7 @@
 #include "validation/runner/evaluate_checks.h"
 
 #include "synthetic/dataset/error.h"
+#include "validation/metrics/enclosed_volume.h"
 #include "validation/metrics/surface_distance.h"
 #include "validation/runner/evaluate.h"
 
@@ -31,6 +32,7 @@ void require_usable_field(const dataset::SurfaceMesh &rest, const std::vector<da
   try
   {
     metrics::require_usable_surface(rest.points, rest.triangles, rest.region);
+    metrics::require_closed(rest.triangles);
   }
   catch (const InputError &error)
   {

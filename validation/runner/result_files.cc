@@ -42,6 +42,34 @@ std::string errors_by_slice_csv(const Evaluation &evaluation)
   return text;
 }
 
+std::string metrics_by_step_csv(const Evaluation &evaluation)
+{
+  std::string text = "condition,sample,organ,step,n_points";
+  for (const MetricFigure &figure : metric_figures())
+    text += fmt::format(",{}", figure.name);
+  text += "\n";
+  for (const StepMetrics &row : evaluation.metrics_by_step)
+  {
+    text += fmt::format("{},{},{},{},{}", row.condition, row.sample, row.organ, row.step, row.material.distance.n);
+    for (const MetricFigure &figure : metric_figures())
+      text += fmt::format(",{:.9g}", figure.value(row));
+    text += "\n";
+  }
+  return text;
+}
+
+std::string errors_by_distance_csv(const Evaluation &evaluation)
+{
+  std::string text = "condition,sample,organ,offset_from_mm,offset_to_mm,n_points,mean_mm,sd_mm,p95_mm,max_mm,"
+                     "material_mean_mm\n";
+  for (const DistanceError &row : evaluation.by_distance)
+    text += fmt::format("{},{},{},{:.9g},{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", row.condition, row.sample,
+                        row.organ, (row.bin - 0.5) * evaluation.slice_pitch, (row.bin + 0.5) * evaluation.slice_pitch,
+                        row.distance.n, row.distance.mean, row.distance.sd, row.distance.p95, row.distance.max,
+                        row.material_mean);
+  return text;
+}
+
 std::string curves_by_step_csv(const Evaluation &evaluation)
 {
   std::string text = "condition,organ,step,n_runs,mean_mm,sd_mm\n";
@@ -94,6 +122,8 @@ void write_result_files(const Evaluation &evaluation, const std::vector<StepTimi
 {
   write_text_file(directory / "errors_by_step.csv", errors_by_step_csv(evaluation));
   write_text_file(directory / "errors_by_slice.csv", errors_by_slice_csv(evaluation));
+  write_text_file(directory / "metrics_by_step.csv", metrics_by_step_csv(evaluation));
+  write_text_file(directory / "errors_by_distance.csv", errors_by_distance_csv(evaluation));
   write_text_file(directory / "curves_by_step.csv", curves_by_step_csv(evaluation));
   write_text_file(directory / "curves_by_slice.csv", curves_by_slice_csv(evaluation));
   write_text_file(directory / "summary.json", summary_json(evaluation, timings));

@@ -15,6 +15,12 @@ namespace pelvireg::runner
 std::string errors_by_step_csv(const Evaluation &evaluation);
 std::string errors_by_slice_csv(const Evaluation &evaluation);
 
+/// Content of metrics_by_step.csv: one row a (condition, sample, organ, last step of a position), the figures of
+/// metric_figures() as columns. Of errors_by_distance.csv: one row a (condition, sample, organ, slab that holds a
+/// sample).
+std::string metrics_by_step_csv(const Evaluation &evaluation);
+std::string errors_by_distance_csv(const Evaluation &evaluation);
+
 /// Content of curves_by_step.csv and curves_by_slice.csv: mean and standard deviation over the runs of what the two
 /// files above hold run by run (aggregate.h), one row a (condition, organ, step or slice).
 std::string curves_by_step_csv(const Evaluation &evaluation);

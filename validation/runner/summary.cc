@@ -1,5 +1,6 @@
 #include "synthetic/dataset/geometry.h"
 #include "validation/runner/aggregate.h"
+#include "validation/runner/aims.h"
 #include "validation/runner/claims.h"
 #include "validation/runner/result_files.h"
 
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 namespace pelvireg::runner
 {
@@ -18,6 +20,13 @@ using json = nlohmann::ordered_json;
 json to_json(const Aggregate &aggregate)
 {
   return {{"n_runs", aggregate.n_runs}, {"mean_mm", aggregate.mean}, {"sd_mm", aggregate.sd}};
+}
+
+json to_json(const std::optional<Slope> &slope)
+{
+  if (!slope)
+    return nullptr;
+  return {{"mm_per_mm", slope->value}, {"n_slices", slope->n_slices}, {"n_slices_left_out", slope->n_left_out}};
 }
 
 /// The distribution over the surface samples in the nominal run at the last step.
@@ -62,8 +71,8 @@ json organ_errors(const Evaluation &evaluation, const std::string &condition, co
   if (condition != unregistered && nothing > 0)
     result["reduction_against_unregistered_percent"] = 100 * (1 - by_step.back().mean / nothing);
   result["last_step_by_slice"] = slices(evaluation, condition, organ);
-  const auto slope = slope_with_distance(evaluation, condition, organ);
-  result["slope_with_distance"] = slope ? json(*slope) : json(nullptr);
+  result["slope_with_distance"] = to_json(slope_with_distance(evaluation, condition, organ));
+  result["slope_with_distance_of_all_slices"] = to_json(slope_with_distance(evaluation, condition, organ, true));
   return result;
 }
 
@@ -73,6 +82,67 @@ json errors(const Evaluation &evaluation)
   for (const std::string &condition : evaluation.conditions)
     for (const std::string &organ : organ_names)
       result[condition][organ] = organ_errors(evaluation, condition, organ);
+  return result;
+}
+
+/// Beyond surface distance, at the last step.
+json metrics_at_last_step(const Evaluation &evaluation)
+{
+  json result;
+  for (const std::string &condition : evaluation.conditions)
+    for (const std::string &organ : organ_names)
+      for (const MetricFigure &figure : metric_figures())
+        if (const auto value = metric_at_last_step(evaluation, condition, organ, figure))
+          result[condition][organ][figure.name] = {{"n_runs", value->n_runs}, {"mean", value->mean}, {"sd", value->sd}};
+  return result;
+}
+
+json by_distance(const Evaluation &evaluation)
+{
+  json result;
+  for (const std::string &condition : evaluation.conditions)
+    for (const std::string &organ : organ_names)
+    {
+      json slabs = json::array();
+      for (const DistanceAggregate &slab : error_by_distance(evaluation, condition, organ))
+        slabs.push_back({{"offset_from_mm", (slab.bin - 0.5) * evaluation.slice_pitch},
+                         {"offset_to_mm", (slab.bin + 0.5) * evaluation.slice_pitch},
+                         {"surface", to_json(slab.surface)},
+                         {"material", to_json(slab.material)}});
+      result[condition][organ] = slabs;
+    }
+  return result;
+}
+
+json sections(const Evaluation &evaluation)
+{
+  json list = json::array();
+  for (const TruthSection &section : evaluation.sections)
+    list.push_back({{"organ", section.organ},
+                    {"slice_index", section.slice_index},
+                    {"area_mm2", section.area},
+                    {"share_of_largest", section.share},
+                    {"counts_for_slope", counts_for_growth(evaluation, section.organ, section.slice_index)}});
+  return list;
+}
+
+/// The worst over the runs of a condition, one entry a body.
+json elements(const Evaluation &evaluation)
+{
+  json result = json::object();
+  for (const BodyElements &run : evaluation.elements)
+  {
+    json &body = result[run.condition][run.body];
+    if (body.is_null())
+      body = {{"n_elements", run.jacobian.n_elements}, {"n_runs", 0}, {"n_inverted", 0}};
+    body["n_runs"] = body["n_runs"].get<int>() + 1;
+    body["n_inverted"] = body["n_inverted"].get<int>() + run.jacobian.n_inverted;
+    if (!body.contains("smallest_jacobian") || run.jacobian.smallest < body["smallest_jacobian"].get<double>())
+    {
+      body["smallest_jacobian"] = run.jacobian.smallest;
+      body["sample_of_smallest"] = run.sample;
+    }
+  }
   return result;
 }
 
@@ -102,7 +172,9 @@ json quality(const Evaluation &evaluation)
                     {"largest_mean_residual_mm", run.largest_mean_residual},
                     {"largest_residual_mm", run.largest_residual},
                     {"largest_out_of_plane_force_n", run.largest_out_of_plane_force},
-                    {"largest_in_plane_force_n", run.largest_in_plane_force}});
+                    {"largest_in_plane_force_n", run.largest_in_plane_force},
+                    {"mean_outline_constraints", run.mean_outline_constraints},
+                    {"mean_contacts", run.mean_contacts}});
   return list;
 }
 
@@ -117,7 +189,9 @@ json penetrations(const Evaluation &evaluation)
                     {"attached", pair.is_attached},
                     {"deepest_mm", pair.deepest},
                     {"step_of_deepest", pair.step_of_deepest},
-                    {"last_step_mm", pair.last}});
+                    {"last_step_mm", pair.last},
+                    {"largest_volume_mm3", pair.largest_volume},
+                    {"last_step_volume_mm3", pair.last_volume}});
   return list;
 }
 
@@ -142,10 +216,15 @@ std::string summary_json(const Evaluation &evaluation, const std::vector<StepTim
   summary["units"] = "mm";
   summary["case"] = evaluation.case_name;
   summary["truth"] = evaluation.truth_source;
+  summary["inverse_crime"] = evaluation.is_inverse_crime;
+  if (evaluation.is_inverse_crime)
+    summary["notice"] = inverse_crime_notice(evaluation);
+  summary["n_registration_nodes"] = evaluation.n_registration_nodes;
   summary["n_increments"] = evaluation.n_increments;
   summary["n_steps"] = evaluation.n_steps();
   summary["surface_spacing_mm"] = evaluation.options.surface_spacing;
   summary["contour_spacing_mm"] = evaluation.options.contour_spacing;
+  summary["line_spacing_mm"] = evaluation.options.line_spacing;
   summary["slice_pitch_mm"] = evaluation.slice_pitch;
   summary["claims"] = json::array();
   for (const ClaimVerdict &claim : assess_claims(evaluation, timings))
@@ -155,7 +234,14 @@ std::string summary_json(const Evaluation &evaluation, const std::vector<StepTim
                                  {"criterion", claim.criterion},
                                  {"ours", claim.ours},
                                  {"verdict", claim.verdict}});
+  summary["aims"] = json::array();
+  for (const Aim &aim : assess_aims(evaluation))
+    summary["aims"].push_back({{"id", aim.id}, {"aim", aim.aim}, {"ours", aim.ours}, {"verdict", aim.verdict}});
   summary["errors"] = errors(evaluation);
+  summary["metrics_at_last_step"] = metrics_at_last_step(evaluation);
+  summary["errors_by_distance"] = by_distance(evaluation);
+  summary["truth_sections"] = sections(evaluation);
+  summary["elements"] = elements(evaluation);
   summary["truth_motion"] = motion(evaluation);
   summary["runs"] = quality(evaluation);
   summary["penetrations"] = penetrations(evaluation);

@@ -1,6 +1,8 @@
 // A second method for every figure of the judge, of other authors: VTK's cell locator and cutter.
 #include "tests/unit/validation/fixtures/shapes.h"
 #include "validation/metrics/contour_distance.h"
+#include "validation/metrics/enclosed_volume.h"
+#include "validation/metrics/inside_intervals.h"
 #include "validation/metrics/surface_distance.h"
 #include "validation/metrics/surface_samples.h"
 
@@ -9,6 +11,7 @@
 #include <vtkCellArray.h>
 #include <vtkCutter.h>
 #include <vtkImplicitPolyDataDistance.h>
+#include <vtkMassProperties.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkPoints.h>
@@ -85,6 +88,19 @@ TEST(SurfaceDistance, AgreesWithVtkCellLocatorAndImplicitDistance)
     Eigen::Vector3d p = samples.row(static_cast<Eigen::Index>(i)); // VTK takes no const
     EXPECT_NEAR(distances[i], cell_locator_distance(locator, p), 1e-9);
     EXPECT_NEAR(distances[i], std::abs(implicit_distance->EvaluateFunction(p.data())), 1e-9);
+  }
+}
+
+TEST(EnclosedVolume, AgreesWithVtkMassProperties)
+{
+  for (const double phase : {0.0, 0.4, 2.0})
+  {
+    const SurfaceMesh organ = bumpy_organ(phase);
+    vtkNew<vtkMassProperties> properties;
+    properties->SetInputData(to_vtk(organ));
+    properties->Update();
+    EXPECT_NEAR(enclosed_volume(organ.points, organ.triangles) / properties->GetVolume(), 1, 1e-9);
+    EXPECT_NEAR(InsideIntervals(organ.points, organ.triangles, 1).volume() / properties->GetVolume(), 1, 1e-3);
   }
 }
 

@@ -123,6 +123,11 @@ TEST(InsideIntervals, RefusesWhatHasNoAnswer)
   dataset::Points broken = box.points;
   broken(3, 1) = std::nan("");
   EXPECT_THROW(InsideIntervals(broken, box.triangles, 1), InputError);
+  broken = box.points;
+  broken(3, 1) = 2000;
+  EXPECT_NO_THROW(InsideIntervals(broken, box.triangles, 1));
+  broken(3, 1) = 2000.001;
+  EXPECT_THROW(InsideIntervals(broken, box.triangles, 1), InputError) << "flown apart";
   EXPECT_THROW(inside(box, 1).common_volume(inside(box, 2)), InputError);
   dataset::SurfaceMesh inverted = box;
   inverted.triangles.col(1).swap(inverted.triangles.col(2));

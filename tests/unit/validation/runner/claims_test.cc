@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace pelvireg::runner
 {
@@ -18,11 +20,14 @@ std::map<std::string, std::string> verdicts(const Eigen::Vector3d &translation, 
   std::vector<dataset::Estimate> estimates = {test::sphere_estimate("full", translation, full_share),
                                               test::sphere_estimate("no_boundary_conditions", translation, bare_share)};
   for (dataset::Estimate &estimate : estimates)
+  {
+    estimate.perturbation.modulus_spread = 0.10;
     for (int sample = 1; sample <= n_random_runs; ++sample)
     {
       estimate.samples.push_back(estimate.samples.front());
       estimate.samples.back().sample = sample;
     }
+  }
   std::map<std::string, std::string> result;
   for (const ClaimVerdict &claim :
        assess_claims(evaluate(test::sphere_anatomy(), test::sphere_truth(translation), estimates), {}))
@@ -90,6 +95,101 @@ TEST(Claims, ARatioDoesNotComeFromARunThatDidNotFollowTheImage)
   EXPECT_EQ(ratio_verdict([](dataset::StepRecord &step) { step.in_plane_residual = 0.3 + 1e-12; }), "not assessed");
   EXPECT_EQ(ratio_verdict([](dataset::StepRecord &step) { step.in_plane_residual = 0.3; }), "confirmed");
   EXPECT_EQ(ratio_verdict([](dataset::StepRecord &step) { step.status = "not_finite"; }), "not assessed");
+}
+
+/// Beside the nominal run ten others whose errors are its own, times 1 more or less `deviation`, taking turns: their
+/// standard deviation is deviation * sqrt(10 / 9) of their mean.
+void spread(Evaluation &evaluation, const std::string &condition, double deviation)
+{
+  const std::vector<StepError> rows = evaluation.by_step;
+  for (int sample = 1; sample <= 10; ++sample)
+  {
+    evaluation.quality.push_back({condition, sample, 6, 0, 1, 0, 0, 0, 0});
+    for (StepError row : rows)
+      if (row.condition == condition && row.sample == 0)
+      {
+        row.sample = sample;
+        row.distance.mean *= sample % 2 ? 1 + deviation : 1 - deviation;
+        evaluation.by_step.push_back(row);
+      }
+  }
+}
+
+TEST(Claims, OfTheSpreadNeedSmallDeviationsAndModuliWithinTenPercent)
+{
+  std::vector<dataset::Estimate> estimates = {test::sphere_estimate("full", {0, 5, -6}, 0.9),
+                                              test::sphere_estimate("no_boundary_conditions", {0, 5, -6}, 0.5)};
+  for (dataset::Estimate &estimate : estimates)
+    estimate.perturbation.modulus_spread = 0.10;
+  const Evaluation nominal = evaluate(test::sphere_anatomy(), test::sphere_truth({0, 5, -6}), estimates);
+  const auto verdict = [&](double with, double without, double modulus_spread = 0.10)
+  {
+    Evaluation evaluation = nominal;
+    spread(evaluation, "full", with * std::sqrt(0.9));
+    spread(evaluation, "no_boundary_conditions", without * std::sqrt(0.9));
+    evaluation.modulus_spreads["full"] = modulus_spread;
+    return assess_claims(evaluation, {})[5].verdict;
+  };
+  EXPECT_EQ(verdict(0.10 - 1e-9, 0.01 - 1e-9), "confirmed");
+  EXPECT_EQ(verdict(0.10 + 1e-9, 0.01 - 1e-9), "refuted");
+  EXPECT_EQ(verdict(0.10 - 1e-9, 0.01 + 1e-9), "refuted");
+  EXPECT_EQ(verdict(0.05, 0.005, 0.05), "not assessed");
+}
+
+TEST(Claims, OfTheFrameRateNeedThePapersSizeAndItsConstraints)
+{
+  const Evaluation judged = evaluate(test::sphere_anatomy(), test::sphere_truth({0, 5, -6}),
+                                     {test::sphere_estimate("full", {0, 5, -6}, 0.9)});
+  const auto verdict = [&](int n_nodes, double outline, double contacts, double ms)
+  {
+    Evaluation evaluation = judged;
+    evaluation.n_registration_nodes = n_nodes;
+    evaluation.quality[0].mean_outline_constraints = outline;
+    evaluation.quality[0].mean_contacts = contacts;
+    return assess_claims(evaluation, {{"no_contact", 6, 1, 1, 1}, {"full", 6, ms, ms, ms}}).back().verdict;
+  };
+  EXPECT_EQ(verdict(4025, 70, 30, 1000 / 14.1), "confirmed");
+  EXPECT_EQ(verdict(4025, 70, 30, 1000 / 13.9), "refuted");
+  EXPECT_EQ(verdict(6200, 70, 30, 1000 / 8.1), "confirmed");
+  EXPECT_EQ(verdict(6200, 70, 30, 1000 / 7.9), "refuted");
+  EXPECT_EQ(verdict(4226, 70, 30, 10), "confirmed") << "4.99 % more";
+  EXPECT_EQ(verdict(4227, 70, 30, 10), "not assessed") << "5.02 % more";
+  EXPECT_EQ(verdict(4025, 59, 30, 10), "not assessed");
+  EXPECT_EQ(verdict(4025, 70, 14, 10), "not assessed");
+  EXPECT_EQ(verdict(4025, 70, 30, std::nan("")), "not assessed");
+}
+
+TEST(Claims, OnSlicesStateHowManyGrazeAnOrgan)
+{
+  const std::vector<dataset::Estimate> estimates = {test::sphere_estimate("full", {0, 5, -6}, 0.9),
+                                                    test::sphere_estimate("no_boundary_conditions", {0, 5, -6}, 0.5)};
+  const ClaimVerdict claim =
+      assess_claims(evaluate(test::sphere_anatomy(), test::sphere_truth({0, 5, -6}), estimates), {})[3];
+  ASSERT_EQ(claim.id, "error_by_slice");
+  EXPECT_NE(claim.ours.find("with the 2 left out"), std::string::npos) << claim.ours;
+  EXPECT_NE(claim.criterion.find("at least 50 %"), std::string::npos) << claim.criterion;
+}
+
+TEST(Claims, OnSlicesNameTheSliceThatIsBelowTheDynPlaneUnlessItGrazesTheOrgan)
+{
+  // Errors that grow by 0.01 mm/mm with and 0.1 mm/mm without boundary conditions; slices -2 ... 3 meet the ellipsoids.
+  const Evaluation judged = evaluate(test::sphere_anatomy(), test::sphere_truth({2, 5, -6}),
+                                     {test::sphere_estimate("full", {2, 5, -6}, 0.9),
+                                      test::sphere_estimate("no_boundary_conditions", {2, 5, -6}, 0.5)});
+  const auto claim_with = [&](int slice, double error)
+  {
+    Evaluation evaluation = judged;
+    for (SliceError &row : evaluation.by_slice)
+      row.distance.mean = 1 + std::abs(row.offset) * (row.condition == "full" ? 0.01 : 0.1);
+    for (SliceError &row : evaluation.by_slice)
+      if (row.condition == "full" && row.organ == "vagina" && row.slice_index == slice)
+        row.distance.mean = error;
+    return assess_claims(evaluation, {})[3];
+  };
+  EXPECT_EQ(claim_with(0, 1).verdict, "confirmed") << claim_with(0, 1).ours;
+  EXPECT_EQ(claim_with(1, 0.95).verdict, "refuted");
+  EXPECT_NE(claim_with(1, 0.95).ours.find("vagina: not least at 0 (1.00 mm, 0.95 mm at 1)"), std::string::npos);
+  EXPECT_EQ(claim_with(3, 0.5).verdict, "confirmed") << "less than half of the largest section";
 }
 
 TEST(Claims, OfAConditionThatWasNotRunAreNotAssessed)

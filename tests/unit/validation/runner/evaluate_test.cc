@@ -162,6 +162,8 @@ TEST(Evaluate, GivesTheSameBytesForOneAndTwoThreadsAndAnyOrderOfEstimates)
   const Evaluation two = evaluate(test::sphere_anatomy(), test::sphere_truth(translation), {bare, full}, two_threads);
   EXPECT_EQ(errors_by_step_csv(one), errors_by_step_csv(two));
   EXPECT_EQ(errors_by_slice_csv(one), errors_by_slice_csv(two));
+  EXPECT_EQ(metrics_by_step_csv(one), metrics_by_step_csv(two));
+  EXPECT_EQ(errors_by_distance_csv(one), errors_by_distance_csv(two));
   EXPECT_EQ(one.conditions, (std::vector<std::string>{unregistered, "no_boundary_conditions", "full"}));
 }
 } // namespace
