@@ -155,8 +155,8 @@ void make_errors(ResultDirectory &directory, int jobs)
        .options = options,
        .inputs = inputs,
        .outputs = {"errors_by_step.csv", "errors_by_slice.csv", "metrics_by_step.csv", "errors_by_distance.csv",
-                   "curves_by_step.csv", "curves_by_slice.csv",
-                   "summary.json", "error_table.txt", "condition_table.txt"},
+                   "curves_by_step.csv", "curves_by_slice.csv", "summary.json", "error_table.txt",
+                   "condition_table.txt"},
        .work = [&](Progress &progress) -> Notes
        {
          const runner::Evaluation evaluation = judge(directory, jobs, progress).evaluation;
