@@ -72,15 +72,15 @@ struct DiscretisationError
   bool same_solver = false;                         ///< the truth was made by exactly that solver's source
 };
 
-/// How Truth::source begins when the registration itself made the truth: an inverse crime (the model that is judged also
-/// made the data), which everything that shows such errors must say.
+/// How Truth::source begins when the registration itself made the truth: an inverse crime (the model that is judged
+/// also made the data), which everything that shows such errors must say.
 inline const std::string truth_of_registration = "pelvireg registration";
 
 /// Content of truth.h5.
 struct Truth
 {
   std::string case_name;
-  std::string source;                 ///< "pelvireg reference (deal.II)", truth_of_registration …, or what was imported
+  std::string source; ///< "pelvireg reference (deal.II)", truth_of_registration …, or what was imported
   std::vector<TruthSurface> surfaces; ///< organ_names in order, then pelvic_floor
   std::vector<TruthTruss> trusses;
   std::vector<std::string> cavity_names;

@@ -169,7 +169,7 @@ void export_estimate(const Anatomy &anatomy, const Truth &truth, const Estimate 
   if (estimate.samples.empty())
     return;
   const std::size_t per_increment = static_cast<std::size_t>(anatomy.registration_steps_per_increment);
-  Collection collection(folder, estimate.condition);
+  Collection collection(folder, estimate.label());
   for (const EstimateSurface &surface : estimate.samples.front().surfaces)
     for (std::size_t step = 1; step <= surface.positions.size(); ++step)
     {

@@ -273,7 +273,7 @@ std::string plane_overlay_figure(const ReportInputs &inputs)
   std::vector<std::string> titles;
   for (const std::string &condition : panel_order(inputs.evaluation))
     for (const dataset::Estimate &estimate : inputs.estimates)
-      if (const dataset::EstimateSample *run = nominal_run(estimate); run && estimate.condition == condition)
+      if (const dataset::EstimateSample *run = nominal_run(estimate); run && estimate.label() == condition)
       {
         all.push_back(cut_all(estimate_at_end(*run), plane));
         titles.push_back(condition_title(condition));

@@ -282,7 +282,7 @@ void render_pictures(const Anatomy &anatomy, const Truth &truth, const std::vect
   draw_truth(anatomy, truth, View::oblique, folder / "truth_oblique.png");
   draw_truth(anatomy, truth, View::sagittal, folder / "truth_sagittal.png");
   for (const Estimate &estimate : estimates)
-    if (estimate.condition == "full" && !estimate.samples.empty())
+    if (estimate.label() == "full" && !estimate.samples.empty())
     {
       draw_error(truth, estimate, View::oblique, folder / "error_oblique.png");
       draw_error(truth, estimate, View::sagittal, folder / "error_sagittal.png");

@@ -11,8 +11,8 @@
 namespace pelvireg::runner
 {
 /// Compare. `estimates` may be empty: then only `unregistered` is judged. Fails closed with InputError, one sentence:
-/// another case, a missing or repeated organ, condition or sample, a missing step, a position that is not finite or metres
-/// away, an open surface, a truth or estimate that the DYN plane misses at the last step.
+/// another case, a missing or repeated organ, condition or sample, a missing step, a position that is not finite or
+/// metres away, an open surface, a truth or estimate that the DYN plane misses at the last step.
 Evaluation evaluate(const dataset::Anatomy &anatomy, const dataset::Truth &truth,
                     const std::vector<dataset::Estimate> &estimates, const EvaluateOptions &options = {});
 } // namespace pelvireg::runner
