@@ -100,6 +100,7 @@ TEST(SimultaneousBand, IsNeverNarrowerThanStudentsT)
   curves << 1, 2, 3, 4;
   const Band band = simultaneous_band(curves, bootstrap_shares(4, 999, 1), 0.01);
   EXPECT_GE(band.critical, 5.8409);
+  EXPECT_NEAR(band.lower[0], 2.5 - band.critical * std::sqrt(5.0 / 3 / 4), 1e-12); // variance of 1, 2, 3, 4: 5/3
 }
 
 TEST(SimultaneousBand, RefusesWhatIsNotFinite)

@@ -27,7 +27,8 @@ struct Rule
   /// curve of quick (0.2 mm) is 0.04.
   double local_least_mm = 0.02;
 
-  /// One-sided error probability of each bound. Of the band it is shared among the curve families (Bonferroni).
+  /// One-sided error probability of each bound that every family must keep. Of what a single family is enough for
+  /// (proven worse, the band, the nominal run) it is shared among the families (Bonferroni).
   double level = 0.01;
   /// Bootstrap resamples of the band: 0.01 shared among 40 families is still a tail of 2.5 resamples.
   int n_resamples = 9999;
