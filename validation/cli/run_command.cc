@@ -1,9 +1,11 @@
 #include "synthetic/anatomy/case.h"
+#include "validation/cli/case_overview.h"
 #include "validation/cli/commands.h"
 #include "validation/runner/register.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace pelvireg::cli
@@ -12,7 +14,8 @@ namespace
 {
 struct Arguments
 {
-  std::string case_name, out;
+  std::vector<std::string> cases;
+  std::string out;
   std::vector<std::string> conditions = runner::default_conditions();
   SampleSettings settings;
   int jobs = 1;
@@ -31,12 +34,30 @@ void print_times(const Manifest &manifest)
   fmt::print("  {:<32}{:>8.1f} s\n", "total", total);
 }
 
-void run_chain(const Arguments &given, const std::string &command_line)
+/// "all" stands for every built-in case.
+std::vector<std::string> expanded_cases(const std::vector<std::string> &given)
+{
+  std::vector<std::string> cases;
+  const auto add = [&](const std::string &name)
+  {
+    if (std::find(cases.begin(), cases.end(), name) == cases.end())
+      cases.push_back(name);
+  };
+  for (const std::string &name : given)
+    if (name == "all")
+      for (const anatomy::CaseSummary &summary : anatomy::built_in_cases())
+        add(summary.name);
+    else
+      add(name);
+  return cases;
+}
+
+void run_chain(const std::string &case_name, const std::filesystem::path &out, const Arguments &given,
+               const std::string &command_line)
 {
   const std::vector<RegisterRequest> requests = requests_of(expanded_conditions(given.conditions), given.settings);
-  const std::string text = anatomy::case_text(given.case_name);
-  const std::string label = case_label(given.case_name);
-  const std::filesystem::path out = given.out.empty() ? "out/" + label : given.out;
+  const std::string text = anatomy::case_text(case_name);
+  const std::string label = case_label(case_name);
   ResultDirectory directory(out, command_line, ResultDirectory::Missing::create);
 
   make_anatomy(directory, label, text);
@@ -51,6 +72,23 @@ void run_chain(const Arguments &given, const std::string &command_line)
   print_times(directory.manifest());
   fmt::print("\nreport: {}\n", (directory.path() / "report.html").string());
 }
+
+void run_cases(const Arguments &given, const std::string &command_line)
+{
+  const std::vector<std::string> cases = expanded_cases(given.cases);
+  for (const std::string &name : cases)
+    anatomy::case_text(name); // a wrong name is told before the first hour of work
+  if (cases.size() == 1)
+    return run_chain(cases[0], given.out.empty() ? "out/" + case_label(cases[0]) : given.out, given, command_line);
+  std::vector<std::filesystem::path> folders;
+  for (std::size_t i = 0; i < cases.size(); ++i)
+  {
+    fmt::print("\n== {} ({} of {})\n", cases[i], i + 1, cases.size());
+    folders.push_back(std::filesystem::path(given.out.empty() ? "out" : given.out) / case_label(cases[i]));
+    run_chain(cases[i], folders.back(), given, command_line);
+  }
+  fmt::print("\n{}", case_overview(folders));
+}
 } // namespace
 
 void add_run_command(CLI::App &program, Invocation &invocation)
@@ -58,18 +96,23 @@ void add_run_command(CLI::App &program, Invocation &invocation)
   const auto arguments = std::make_shared<Arguments>();
   CLI::App *command = program.add_subcommand(
       "run", "The whole chain: anatomy, reference, observe, register, evaluate, report; prints the error table");
-  command->add_option("CASE", arguments->case_name, "Built-in name (see 'pelvireg cases') or path to a .toml file")
+  command
+      ->add_option("CASE", arguments->cases,
+                   "Built-in names (see 'pelvireg cases') or paths to .toml files; 'all' for every built-in case")
       ->required();
-  command->add_option("--out", arguments->out, "Result directory, made when missing; out/CASE when not given");
+  command->add_option("--out", arguments->out,
+                      "Result directory, made when missing; out/CASE when not given. For several cases the folder of "
+                      "their directories");
   add_condition_option(*command, arguments->conditions);
   add_sample_options(*command, arguments->settings);
   add_jobs_option(*command, arguments->jobs);
   command->footer("Examples:\n  pelvireg run quick\n  pelvireg run t005 --out out/t005 --jobs 2\n"
                   "  pelvireg run t005 --conditions all\n"
+                  "  pelvireg run all --conditions all --samples 100\n"
                   "  pelvireg run t005 --samples 100 --perturb modulus,surface,outline,plane\nA stage whose inputs "
                   "have not changed is not run again.");
   command->callback(
       [&invocation, arguments]
-      { invocation.action = [&invocation, arguments] { run_chain(*arguments, invocation.command_line); }; });
+      { invocation.action = [&invocation, arguments] { run_cases(*arguments, invocation.command_line); }; });
 }
 } // namespace pelvireg::cli
