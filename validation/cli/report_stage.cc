@@ -50,7 +50,7 @@ std::vector<report::ReportPicture> draw_pictures(const ResultDirectory &director
 }
 } // namespace
 
-void make_report(ResultDirectory &directory, int jobs)
+void make_report(ResultDirectory &directory, Judge &judge)
 {
   const std::vector<report::ProvenanceEntry> provenance = provenance_of(directory.manifest());
   std::string options;
@@ -67,7 +67,7 @@ void make_report(ResultDirectory &directory, int jobs)
                  .optional_outputs = picture_files(),
                  .work = [&](Progress &progress) -> Notes
                  {
-                   const Judgement judgement = judge(directory, jobs, progress);
+                   const Judgement &judgement = judge.of(directory, progress);
                    report::write_report({.evaluation = judgement.evaluation,
                                          .anatomy = judgement.anatomy,
                                          .truth = judgement.truth,

@@ -65,8 +65,9 @@ void run_chain(const std::string &case_name, const std::filesystem::path &out, c
   make_observations(directory);
   for (const RegisterRequest &request : requests)
     make_estimate(directory, request, given.jobs);
-  make_errors(directory, given.jobs);
-  make_report(directory, given.jobs);
+  Judge judge(given.jobs);
+  make_errors(directory, judge);
+  make_report(directory, judge);
 
   print_error_table(directory);
   print_times(directory.manifest());

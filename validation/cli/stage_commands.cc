@@ -70,7 +70,8 @@ void add_stage_commands(CLI::App &program, Invocation &invocation)
                         "Errors of every estimate in the directory: errors_by_*.csv, summary.json",
                         [](ResultDirectory &directory, const Arguments &given)
                         {
-                          make_errors(directory, given.jobs);
+                          Judge judge(given.jobs);
+                          make_errors(directory, judge);
                           print_error_table(directory);
                         });
   add_jobs_option(*command, evaluate->jobs);
@@ -78,7 +79,11 @@ void add_stage_commands(CLI::App &program, Invocation &invocation)
 
   const auto report = std::make_shared<Arguments>();
   command = add_command(program, invocation, report, "report", "The page for people: report.html",
-                        [](ResultDirectory &directory, const Arguments &given) { make_report(directory, given.jobs); });
+                        [](ResultDirectory &directory, const Arguments &given)
+                        {
+                          Judge judge(given.jobs);
+                          make_report(directory, judge);
+                        });
   add_jobs_option(*command, report->jobs);
   command->footer("Example:\n  pelvireg report out/t005");
 }

@@ -19,6 +19,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 namespace pelvireg::cli
 {
@@ -51,8 +52,10 @@ std::vector<runner::StepTiming> recorded_timings(const ResultDirectory &director
   return timings;
 }
 
-Judgement judge(const ResultDirectory &directory, int jobs, Progress &progress)
+const Judgement &Judge::of(const ResultDirectory &directory, Progress &progress)
 {
+  if (judgement_)
+    return *judgement_;
   Judgement judgement{.anatomy = dataset::load_anatomy(directory.path() / "anatomy.h5"),
                       .truth = dataset::load_truth(directory.path() / "truth.h5"),
                       .estimates = {},
@@ -60,8 +63,8 @@ Judgement judge(const ResultDirectory &directory, int jobs, Progress &progress)
   for (const std::string &file : estimate_files(directory))
     judgement.estimates.push_back(dataset::load_estimate(directory.path() / file));
   judgement.evaluation = runner::evaluate(judgement.anatomy, judgement.truth, judgement.estimates,
-                                          {.n_threads = jobs, .progress = progress.callback()});
-  return judgement;
+                                          {.n_threads = jobs_, .progress = progress.callback()});
+  return judgement_.emplace(std::move(judgement));
 }
 
 std::vector<std::string> stage_order()
@@ -141,7 +144,7 @@ void make_observations(ResultDirectory &directory)
                  }});
 }
 
-void make_errors(ResultDirectory &directory, int jobs)
+void make_errors(ResultDirectory &directory, Judge &judge)
 {
   const std::vector<std::string> estimates = estimate_files(directory);
   std::vector<std::string> inputs = {"anatomy.h5", "truth.h5"};
@@ -162,7 +165,7 @@ void make_errors(ResultDirectory &directory, int jobs)
                    "condition_table.txt"},
        .work = [&](Progress &progress) -> Notes
        {
-         const runner::Evaluation evaluation = judge(directory, jobs, progress).evaluation;
+         const runner::Evaluation &evaluation = judge.of(directory, progress).evaluation;
          runner::write_result_files(evaluation, timings, directory.path());
          dataset::write_text_file(directory.path() / "error_table.txt", runner::error_table(evaluation, timings));
          dataset::write_text_file(directory.path() / "condition_table.txt", runner::condition_table(evaluation));

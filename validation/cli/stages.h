@@ -5,6 +5,7 @@
 #include "validation/runner/evaluate.h"
 #include "validation/runner/register.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,6 @@ void make_anatomy(ResultDirectory &directory, const std::string &case_name, cons
 void make_truth(ResultDirectory &directory, int jobs, const std::string &log_file = {});
 /// observations.h5
 void make_observations(ResultDirectory &directory);
-/// errors_by_*.csv, curves_by_*.csv, summary.json, error_table.txt, condition_table.txt, from every estimate in the
-/// directory
-void make_errors(ResultDirectory &directory, int jobs);
-/// report.html, pictures/*.png
-void make_report(ResultDirectory &directory, int jobs);
-
 /// Everything in the directory, loaded and judged.
 struct Judgement
 {
@@ -30,7 +25,25 @@ struct Judgement
   std::vector<dataset::Estimate> estimates;
   runner::Evaluation evaluation;
 };
-Judgement judge(const ResultDirectory &directory, int jobs, Progress &progress);
+
+/// Judges a directory when it is first asked to, and keeps the judgement: evaluate and report, in one process with no
+/// other stage between them, judge once.
+class Judge
+{
+public:
+  explicit Judge(int jobs) : jobs_(jobs) {}
+  const Judgement &of(const ResultDirectory &directory, Progress &progress);
+
+private:
+  int jobs_;
+  std::optional<Judgement> judgement_;
+};
+
+/// errors_by_*.csv, curves_by_*.csv, summary.json, error_table.txt, condition_table.txt, from every estimate in the
+/// directory
+void make_errors(ResultDirectory &directory, Judge &judge);
+/// report.html, pictures/*.png
+void make_report(ResultDirectory &directory, Judge &judge);
 
 /// Step times of the estimates in the directory, as their register stages noted them.
 std::vector<runner::StepTiming> recorded_timings(const ResultDirectory &directory);
