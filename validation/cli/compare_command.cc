@@ -28,9 +28,10 @@ void write_if_asked(const std::string &file, const std::string &text)
 
 int compare_results(const Arguments &given)
 {
+  const regression::Baseline baseline =
+      regression::load_baseline(given.baseline, sha256_of_text); // MISSING comes first
   const regression::Comparison comparison =
-      regression::compare(regression::load_baseline(given.baseline, sha256_of_text),
-                          regression::load_result(given.current, sha256_of_text));
+      regression::compare(baseline, regression::load_result(given.current, sha256_of_text));
   write_if_asked(given.markdown, comparison_markdown(comparison));
   write_if_asked(given.junit, comparison_junit(comparison));
   write_if_asked(given.json, comparison_json(comparison));
