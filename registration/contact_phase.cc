@@ -1,3 +1,4 @@
+#include "registration/constraints/contact_rows.h"
 #include "registration/implementation.h"
 
 #include <algorithm>
@@ -8,6 +9,23 @@ namespace pelvireg::registration
 {
 namespace
 {
+/// What an image shows, as a list of numbers.
+void list_image(const Observation &observation, std::vector<double> &image)
+{
+  const auto append = [&image](const auto &values)
+  { image.insert(image.end(), values.data(), values.data() + values.size()); };
+  image.clear();
+  append(observation.plane_origin);
+  append(observation.plane_normal);
+  for (const OutlineObservation &outline : observation.outlines)
+  {
+    image.push_back(outline.body);
+    image.push_back(static_cast<double>(outline.points.rows()));
+    append(outline.points);
+    append(outline.normals);
+  }
+}
+
 /// Flags of the triangles of `body` that may touch `other`: walls without a node that is attached to `other` or that
 /// carries an attachment of it, and without a neighbour of such a node.
 std::vector<char> touching_triangles(const Model &model, int body, int other,
@@ -47,13 +65,14 @@ void Registration::Implementation::add_pair(const Model &model, const ContactPai
   penetrations.push_back({pair.body_a, pair.body_b, Eigen::Vector3d::Zero(), 0, 0, 0, 0});
 }
 
+ContactSurface Registration::Implementation::contact_surface(const TouchingPair &pair, int side) const
+{
+  const int body = pair.bodies[side];
+  return {&outer_surfaces[body], &bodies[body].positions(), &pair.may_touch[side], &trees[body]};
+}
+
 void Registration::Implementation::detect_contacts()
 {
-  const auto surface = [this](const TouchingPair &pair, int side)
-  {
-    const int body = pair.bodies[side];
-    return ContactSurface{&outer_surfaces[body], &bodies[body].positions(), &pair.may_touch[side], &trees[body]};
-  };
   for (const TouchingPair &pair : pairs)
     for (const int body : pair.bodies)
       trees[body].refit(bodies[body].positions());
@@ -61,8 +80,7 @@ void Registration::Implementation::detect_contacts()
               [&](int k)
               {
                 TouchingPair &pair = pairs[k];
-                pair.contact.detect(surface(pair, 0), surface(pair, 1),
-                                    {options.contact_pixel, options.contact_cell, options.contact_margin});
+                pair.contact.detect(contact_surface(pair, 0), contact_surface(pair, 1), contact_grid());
                 penetrations[k].depth = pair.contact.deepest_overlap();
                 penetrations[k].volume = pair.contact.overlap_volume();
                 penetrations[k].n_contacts = static_cast<int>(pair.contact.contacts().size());
@@ -72,13 +90,29 @@ void Registration::Implementation::detect_contacts()
 
 void Registration::Implementation::add_contacts(StepSummary &summary)
 {
+  const auto side = [this](int body) { return ContactBody{body, &bodies[body].positions(), &slip_origins[body]}; };
   for (const TouchingPair &pair : pairs)
+  {
+    const std::array<ContactBody, 2> sides{side(pair.bodies[0]), side(pair.bodies[1])};
     for (const Contact &contact : pair.contact.contacts())
     {
-      add_contact_rows(contact, pair.contact.shares(), pair.bodies, has_friction(), options.max_recovery,
-                       options.contact_compliance, rows);
+      add_normal_row(contact, pair.contact.shares(), sides, options.max_recovery, options.contact_compliance, rows);
+      if (has_friction())
+        add_friction_rows(contact, pair.contact.shares(), sides, options.contact_compliance, rows);
       ++summary.n_contacts;
     }
+  }
+}
+
+void Registration::Implementation::follow_image(const Observation &observation)
+{
+  list_image(observation, image);
+  if (!has_moved_points && image == last_image)
+    return;
+  image.swap(last_image);
+  has_moved_points = false;
+  for (std::size_t body = 0; body < bodies.size(); ++body)
+    slip_origins[body] = bodies[body].positions();
 }
 
 void Registration::Implementation::guess_contact_forces()

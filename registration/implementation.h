@@ -24,6 +24,7 @@ struct Registration::Implementation
 
   // Phases of a step, in order (step.cc, contact_phase.cc).
   StepStatus check(const Observation &observation) const;
+  void follow_image(const Observation &observation);
   void match_outlines(const Observation &observation);
   void linearise_constraints(StepSummary &summary);
   void add_contacts(StepSummary &summary);
@@ -39,6 +40,7 @@ struct Registration::Implementation
   void measure_contact(StepSummary &summary);
 
   void add_pair(const Model &model, const ContactPair &pair);
+  void reserve_memory();
   void add_row_forces(int first_row, int end_row);
   bool has_friction() const { return options.friction_coefficient > 0; }
 
@@ -55,6 +57,9 @@ struct Registration::Implementation
     std::array<std::vector<char>, 2> may_touch; ///< a flag an outer triangle: neither a cap nor attached to the other
     VolumeContact contact;
   };
+
+  ContactSurface contact_surface(const TouchingPair &pair, int side) const;
+  ContactGrid contact_grid() const { return {options.contact_pixel, options.contact_cell, options.contact_margin}; }
 
   Options options;
   std::vector<BodySolver> bodies;
@@ -74,8 +79,11 @@ struct Registration::Implementation
   int n_bilateral_rows = 0;
   ConstraintSolver constraint_solver;
   ContactMemory contact_memory;
-  std::vector<double> remaining_gaps; ///< after the free motion, mm, one a row
-  std::vector<char> succeeded;        ///< a flag a body
+  std::vector<double> image, last_image; ///< what the present and the last image show
+  bool has_moved_points = false;         ///< since the last step
+  std::vector<Points> slip_origins;      ///< one a body: positions when what drives the organs last changed
+  std::vector<double> remaining_gaps;    ///< after the free motion, mm, one a row
+  std::vector<char> succeeded;           ///< a flag a body
   std::vector<Points> nodal_forces;
   std::vector<PairPenetration> penetrations;
   PhaseTimes times;

@@ -42,6 +42,8 @@ std::vector<std::string> Options::violations() const
   demand(tolerance_newton > 0 && std::isfinite(tolerance_newton), "tolerance_newton", tolerance_newton,
          "positive and finite (N)");
   demand(n_threads >= 1, "n_threads", n_threads, "at least 1");
+  demand(reserved_control_points >= 0, "reserved_control_points", reserved_control_points, "at least 0");
+  demand(reserved_contacts >= 0, "reserved_contacts", reserved_contacts, "at least 0");
   return problems;
 }
 

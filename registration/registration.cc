@@ -65,6 +65,7 @@ void Registration::move_points(int attachment, const Points &points)
     throw std::invalid_argument("registration: point attachment " + std::to_string(attachment) +
                                 " does not exist, must lie in [0, " + std::to_string(n) + ")");
   check_points("point attachment " + std::to_string(attachment), implementation.n_held_nodes[attachment], points);
+  implementation.has_moved_points = true;
   std::vector<HeldNode> &nodes = implementation.held_nodes[attachment];
   for (std::size_t k = 0; k < nodes.size(); ++k)
     nodes[k].point = points.row(static_cast<Eigen::Index>(k)).transpose();

@@ -103,15 +103,22 @@ struct Options
   /// Coulomb, between organs. No coefficient between pelvic organs is published; 0.05 to 0.1 is the range that
   /// sensitivity studies take, and the paper holds organs back by friction. 0: organs slide freely.
   double friction_coefficient = 0.1;
-  double contact_pixel = 1;         ///< mm between the rays that see overlaps, >= 0.05
-  double contact_cell = 8;          ///< mm, edge of the cells in which overlap is gathered into one contact
-  double contact_margin = 0.3;      ///< mm: surfaces this near are watched, so that what touches stays in contact
+  double contact_pixel = 1; ///< mm between the rays that see overlaps, >= 0.05
+  double contact_cell = 8;  ///< mm, edge of the cells in which overlap is gathered into one contact
+  /// mm: surfaces this near are watched, so that what touches stays in contact. About as much as facets lie inside the
+  /// curved walls (7 mm on a radius of 11 mm: 0.55 mm), so that a patch of contact is about as wide as a facet: a
+  /// narrower one turns its normal with every facet that it passes, and does not come to rest.
+  double contact_margin = 0.5;
   double contact_compliance = 1e-3; ///< mm/N, per contact row
   double max_recovery = 1;          ///< mm: the most by which one step drives overlapping bodies apart in a cell
   int max_sweeps = 500;
   double tolerance_mm = 1e-6;     ///< the constraint solve stops when the largest change of a row's gap is below …
   double tolerance_newton = 1e-4; ///< … and, for contacts, the largest change of a force
   int n_threads = 1;              ///< results are bit-identical for every value
+  /// Memory is set aside in prepare(): no step with at most so many control points and contacts, on surfaces at most
+  /// half as large again as at rest, allocates. A larger one does, once.
+  int reserved_control_points = 128;
+  int reserved_contacts = 64;
   Mutation mutation = {};         ///< for tests of the regression gate alone
 
   /// All problems as sentences; empty when the options are usable.
@@ -205,7 +212,7 @@ struct SystemSize
   long n_factor_values = 0; ///< doubles stored for the Cholesky factors, 8 bytes each
 };
 
-/// The registration. Not copyable; movable. In the steady state update() allocates nothing.
+/// The registration. Not copyable; movable. update() allocates nothing up to the capacities in Options.
 class Registration
 {
 public:
@@ -228,7 +235,7 @@ public:
   void move_points(int attachment, const Points &points);
 
   /// Static mode: steps on one image until nothing moves and forces balance. Steps keep their time step h, which does
-  /// not influence the equilibrium (paper, section 5.2) but for what friction holds on the way. Stops at a failed step,
+  /// not influence the equilibrium (paper, section 5.2), with friction either. Stops at a failed step,
   /// whose status is in last_step. Throws std::invalid_argument for tolerances that are not positive.
   Equilibrium settle(const Observation &observation, const EquilibriumTolerance &tolerance = {});
 

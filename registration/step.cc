@@ -92,6 +92,7 @@ Registration::Implementation::Implementation(const Model &model, const Options &
     trees.emplace_back(wall_triangles(body), body.rest_positions);
     outer_surfaces.push_back(body.outer_triangles);
     nodal_forces.push_back(Points::Zero(body.rest_positions.rows(), 3));
+    slip_origins.push_back(body.rest_positions);
     if (is_organ(body) || options.use_attachments)
       active.push_back(static_cast<int>(bodies.size()) - 1);
   }
@@ -113,6 +114,7 @@ Registration::Implementation::Implementation(const Model &model, const Options &
   if (options.use_contact)
     for (const ContactPair &pair : model.contact_pairs)
       add_pair(model, pair);
+  reserve_memory();
   detect_contacts();
 }
 
@@ -129,6 +131,7 @@ StepSummary Registration::Implementation::update(const Observation &observation)
 
   if (const StepStatus status = check(observation); status != StepStatus::ok)
     return fail(status);
+  follow_image(observation);
   match_outlines(observation);
   linearise_constraints(summary);
   times.match = watch.lap();

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace pelvireg::registration
@@ -37,6 +38,16 @@ public:
     kinds_.clear();
     gaps_.clear();
     compliances_.clear();
+  }
+
+  /// Set memory aside.
+  void reserve(std::size_t n_rows, std::size_t n_entries)
+  {
+    starts_.reserve(n_rows + 1);
+    entries_.reserve(n_entries);
+    kinds_.reserve(n_rows);
+    gaps_.reserve(n_rows);
+    compliances_.reserve(n_rows);
   }
 
   /// Start a row: gap in mm, compliance in mm/N.

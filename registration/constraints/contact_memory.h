@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,7 @@ class ContactMemory
 public:
   /// Forget everything; keeps the memory.
   void clear() { entries_.clear(); }
+  void reserve(std::size_t n_contacts) { entries_.reserve(n_contacts); }
   /// In ascending order of (pair, cell).
   void remember(int pair, std::int64_t cell, const Eigen::Vector3d &force) { entries_.push_back({pair, cell, force}); }
   /// Zero when there was no contact.

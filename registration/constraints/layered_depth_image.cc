@@ -42,6 +42,15 @@ double raster_quantum(const Eigen::AlignedBox3d &box)
   return std::exp2(std::ceil(std::log2(extent)) - 29);
 }
 
+void LayeredDepthImage::reserve(std::size_t n_rays, std::size_t n_fragments)
+{
+  constexpr std::size_t many_crossings = 64;
+  heads_.reserve(n_rays);
+  fragments_.reserve(n_fragments);
+  next_.reserve(n_fragments);
+  sorted_.reserve(many_crossings);
+}
+
 void LayeredDepthImage::aim(int axis, double pixel, const Eigen::AlignedBox3d &box)
 {
   axis_ = axis;

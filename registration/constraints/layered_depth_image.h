@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct Fragment
 class LayeredDepthImage
 {
 public:
+  /// Set memory aside.
+  void reserve(std::size_t n_rays, std::size_t n_fragments);
+
   /// Rays through the box (mm) at the spacing `pixel` (mm, > 0); forgets all fragments and keeps the memory.
   void aim(int axis, double pixel, const Eigen::AlignedBox3d &box);
 

@@ -23,6 +23,18 @@ Eigen::AlignedBox3d box_of(const ContactSurface &surface)
   return box;
 }
 
+double area_of(const ContactSurface &surface)
+{
+  double area = 0;
+  for (Eigen::Index t = 0; t < surface.triangles->rows(); ++t)
+  {
+    const auto corner = [&](int i) -> Eigen::Vector3d
+    { return surface.positions->row((*surface.triangles)(t, i)).transpose(); };
+    area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+  }
+  return area;
+}
+
 Eigen::Vector3d unit_normal(const ContactSurface &surface, int triangle)
 {
   const auto corner = [&](int i) -> Eigen::Vector3d
@@ -49,18 +61,30 @@ std::int64_t cell_name(const Eigen::Vector3d &point, double edge)
 }
 } // namespace
 
-std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d &normal)
-{
-  // Duff et al., "Building an orthonormal basis, revisited" (JCGT 6, 2017).
-  const double sign = std::copysign(1.0, normal.z());
-  const double a = -1 / (sign + normal.z()), b = normal.x() * normal.y() * a;
-  return {Eigen::Vector3d(1 + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x()),
-          Eigen::Vector3d(b, sign + normal.y() * normal.y() * a, -normal.y())};
-}
-
 VolumeContact::VolumeContact(int n_nodes_a, int n_nodes_b)
     : share_of_{std::vector<int>(n_nodes_a, -1), std::vector<int>(n_nodes_b, -1)}
 {
+}
+
+void VolumeContact::reserve(const ContactSurface &a, const ContactSurface &b, const ContactGrid &grid,
+                            std::size_t n_contacts)
+{
+  constexpr double growth = 1.5;
+  constexpr std::size_t many_spans = 64;
+  const double area = growth * growth * (area_of(a) + area_of(b)); // at least the area seen along any axis
+  // The boxes' overlap is no larger than either, however both turn.
+  const double extent = growth * std::min(box_of(a).diagonal().norm(), box_of(b).diagonal().norm()) + 2 * grid.margin;
+  const double rays_across = extent / grid.pixel + 2;
+  const auto n_rays = static_cast<std::size_t>(rays_across * rays_across);
+  const auto n_fragments = static_cast<std::size_t>(area / (grid.pixel * grid.pixel));
+  for (LayeredDepthImage &image : images_)
+    image.reserve(n_rays, n_fragments);
+  spans_.reserve(many_spans);
+  columns_.reserve(n_fragments);
+  order_.reserve(n_fragments);
+  nested_.reserve(n_fragments);
+  contacts_.reserve(n_contacts);
+  shares_.reserve(n_contacts * reserved_shares);
 }
 
 void VolumeContact::detect(const ContactSurface &a, const ContactSurface &b, const ContactGrid &grid)
@@ -260,23 +284,6 @@ void VolumeContact::share_out(const Column &column, const Fragment &fragment, co
     shares_[share].normal_jacobian[column.axis] += sign * area / contact.area;
     if (column.entry->side != column.exit->side)
       shares_[share].weight += std::abs(contact.normal[column.axis]) * area;
-  }
-}
-
-void add_contact_rows(const Contact &contact, const std::vector<ContactShare> &shares, const std::array<int, 2> &bodies,
-                      bool with_friction, double max_recovery, double compliance, ConstraintRows &rows)
-{
-  rows.add_row(RowKind::contact, std::min(contact.depth, max_recovery), compliance);
-  for (int s = contact.first_share; s < contact.end_share; ++s)
-    rows.add_entry({bodies[shares[s].side], shares[s].node, shares[s].normal_jacobian});
-  if (!with_friction)
-    return;
-  for (const Eigen::Vector3d &tangent : tangents(contact.normal))
-  {
-    rows.add_row(RowKind::friction, 0, compliance);
-    for (int s = contact.first_share; s < contact.end_share; ++s)
-      rows.add_entry({bodies[shares[s].side], shares[s].node,
-                      (shares[s].side == 0 ? shares[s].weight : -shares[s].weight) * tangent});
   }
 }
 } // namespace pelvireg::registration

@@ -3,13 +3,13 @@
 // Trans. Graph. 29, 2010).
 #pragma once
 
-#include "registration/constraints/constraint_rows.h"
 #include "registration/constraints/contact_spans.h"
 #include "registration/constraints/layered_depth_image.h"
 #include "registration/constraints/triangle_tree.h"
 #include "registration/registration.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -69,6 +69,11 @@ public:
   /// Number of nodes of the two bodies.
   VolumeContact(int n_nodes_a, int n_nodes_b);
 
+  /// Set memory aside for so many contacts between these surfaces, in any position and half as large again.
+  void reserve(const ContactSurface &a, const ContactSurface &b, const ContactGrid &grid, std::size_t n_contacts);
+  /// How many nodes share a contact, at most, in the memory set aside: a cell holds some facets of either surface.
+  static constexpr std::size_t reserved_shares = 128;
+
   /// Overlap of the surfaces as they are now; positions must be finite.
   void detect(const ContactSurface &a, const ContactSurface &b, const ContactGrid &grid);
 
@@ -119,12 +124,4 @@ private:
   double overlap_volume_ = 0, deepest_overlap_ = 0;
   int n_open_rays_ = 0;
 };
-
-/// Rows of a contact: the normal one, that must close at least min(depth, max_recovery), and, with friction, two along
-/// the surface. `bodies` are a and b.
-void add_contact_rows(const Contact &contact, const std::vector<ContactShare> &shares, const std::array<int, 2> &bodies,
-                      bool with_friction, double max_recovery, double compliance, ConstraintRows &rows);
-
-/// Two unit vectors across a unit vector, continuous in it except at one direction.
-std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d &normal);
 } // namespace pelvireg::registration

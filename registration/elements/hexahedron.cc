@@ -89,7 +89,7 @@ Eigen::Matrix<double, 6, 6> elasticity_matrix(const Lame &material)
 }
 } // namespace
 
-Hexahedron::Hexahedron(const NodalVectors &rest, const Lame &material) : rest_(rest)
+Hexahedron::Hexahedron(const NodalVectors &rest, const Lame &material) : rest_(rest), material_(material)
 {
   const double g = 1 / std::sqrt(3.0);
   const NodalVectors gauss_points = g * reference_corners();
@@ -134,5 +134,16 @@ Hexahedron::NodalVectors Hexahedron::force(const Eigen::Matrix3d &rotation, cons
   NodalVectors result;
   Eigen::Map<Eigen::Matrix<double, 24, 1>>(result.data()).noalias() = stiffness_ * u;
   return rotation * result;
+}
+
+Eigen::Matrix<double, 8, 8> Hexahedron::tension_stiffness(const Eigen::Matrix3d &rotation,
+                                                          const NodalVectors &positions) const
+{
+  const Eigen::Matrix3d stretch = rotation.transpose() * (positions * centre_gradients_.transpose());
+  const Eigen::Matrix3d strain = 0.5 * (stretch + stretch.transpose()) - Eigen::Matrix3d::Identity();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal;
+  principal.computeDirect(2 * material_.mu * strain + material_.lambda * strain.trace() * Eigen::Matrix3d::Identity());
+  const NodalVectors along = principal.eigenvectors().transpose() * centre_gradients_;
+  return volume() * (along.transpose() * principal.eigenvalues().cwiseMax(0).asDiagonal() * along);
 }
 } // namespace pelvireg::registration

@@ -43,11 +43,19 @@ public:
     return rotation * stiffness_.block<3, 3>(3 * a, 3 * b) * rotation.transpose();
   }
 
+  /// Geometric stiffness of what the element carries in tension, N/mm: block (a, b) is entry (a, b) times the unit
+  /// matrix. R K R^T has none, so that Newton's method swings a taut band about its line for ever, wider and wider, as
+  /// soon as the tension holds it more firmly than its bending stiffness. Compression is left out: it would take
+  /// definiteness away.
+  Eigen::Matrix<double, n_nodes, n_nodes> tension_stiffness(const Eigen::Matrix3d &rotation,
+                                                            const NodalVectors &positions) const;
+
   /// Stiffness of the element frame, N/mm.
   const Stiffness &stiffness() const { return stiffness_; }
 
 private:
   NodalVectors rest_;
+  Lame material_;
   NodalVectors centre_gradients_; ///< of the shape functions at the centre, 1/mm
   Eigen::Matrix<double, n_nodes, 1> volume_shares_;
   Stiffness stiffness_;

@@ -100,6 +100,14 @@ void BodySolver::predict_free_motion()
     factor_->solve_lower(reduced_load_.data());
 }
 
+void BodySolver::reserve_rows(int n_rows, std::size_t n_nodes)
+{
+  touching_rows_.reserve(n_rows);
+  rows_.reserve(n_rows, 3 * n_nodes);
+  if (n_unknowns() > 0)
+    compliance_.reserve(*factor_, n_rows);
+}
+
 void BodySolver::gather_rows(const ConstraintRows &rows, int body)
 {
   touching_rows_.clear();

@@ -32,6 +32,8 @@ public:
   /// L^-1 b, all that the constraints need of the free motion A^-1 b.
   void predict_free_motion();
 
+  /// Set memory aside for so many constraint rows that touch this body, with so many nodes in all.
+  void reserve_rows(int n_rows, std::size_t n_nodes);
   /// Take the part of the constraint rows that touches this body; `body` is this body's index in them.
   void gather_rows(const ConstraintRows &rows, int body);
   /// Its part of W = H A^-1 H^T and H x_free over touching_rows(), after predict_free_motion().
@@ -39,7 +41,7 @@ public:
   /// Global indices of the rows that touch this body, ascending.
   const std::vector<int> &touching_rows() const { return touching_rows_; }
   /// Lower triangle; size touching_rows().size().
-  const Eigen::MatrixXd &compliance() const { return compliance_.result(); }
+  Eigen::Map<const Eigen::MatrixXd> compliance() const { return compliance_.result(); }
   /// (H x_free) of touching row k, mm.
   double free_gap_change(int k) const { return compliance_.free_change(k); }
 

@@ -27,6 +27,23 @@ void Compliance::compute(const SupernodalFactor &factor, const SparseRows &rows,
   set_result();
 }
 
+void Compliance::reserve(const SupernodalFactor &factor, int n_rows)
+{
+  const std::size_t n_padded = kernels::padded(n_rows), n_groups = n_padded / width;
+  for (std::vector<int> *list : {&first_supernode_, &order_, &place_})
+    list->reserve(n_rows);
+  reached_by_.resize(factor.n_supernodes());
+  for (std::vector<int> &reached : reached_by_)
+    reached.reserve(n_groups);
+  last_group_seen_.reserve(factor.n_supernodes());
+  group_values_.reserve(n_groups);
+  result_.reserve(static_cast<std::size_t>(n_rows) * n_rows);
+  right_sides_.require(n_padded * factor.n_rows());
+  products_.require(n_groups * (n_groups + 1) / 2 * width * width);
+  free_changes_.require(n_padded);
+  factors_.require(n_padded);
+}
+
 void Compliance::group_rows(const SupernodalFactor &factor, const SparseRows &rows)
 {
   const int n_rows = rows.size();
@@ -71,9 +88,9 @@ void Compliance::set_right_sides(const SupernodalFactor &factor, const SparseRow
   products_.require(static_cast<std::size_t>(n_groups_) * (n_groups_ + 1) / 2 * width * width);
   free_changes_.require(n_groups_ * width);
   factors_.require(n_groups_ * width);
-  std::fill_n(products_.data(), products_.size(), 0.0);
-  std::fill_n(free_changes_.data(), free_changes_.size(), 0.0);
-  std::fill_n(factors_.data(), factors_.size(), 0.0);
+  std::fill_n(products_.data(), static_cast<std::size_t>(n_groups_) * (n_groups_ + 1) / 2 * width * width, 0.0);
+  std::fill_n(free_changes_.data(), n_groups_ * width, 0.0);
+  std::fill_n(factors_.data(), n_groups_ * width, 0.0);
   group_values_.resize(n_groups_);
   for (int group = 0; group < n_groups_; ++group)
     group_values_[group] = right_sides_.data() + group * group_size;
@@ -94,13 +111,15 @@ kernels::RightSides Compliance::sides_at(int supernode) const
 void Compliance::set_result()
 {
   const int n_rows = static_cast<int>(order_.size());
-  result_.resize(n_rows, n_rows);
+  if (const auto size = static_cast<std::size_t>(n_rows) * n_rows; result_.size() < size)
+    result_.resize(size);
   for (int column = 0; column < n_rows; ++column)
     for (int row = column; row < n_rows; ++row)
     {
       const int a = std::max(place_[row], place_[column]), b = std::min(place_[row], place_[column]);
       const long tile = static_cast<long>(a / width) * (a / width + 1) / 2 + b / width;
-      result_(row, column) = products_.data()[(tile * width + b % width) * width + a % width];
+      result_[static_cast<std::size_t>(column) * n_rows + row] =
+          products_.data()[(tile * width + b % width) * width + a % width];
     }
 }
 

@@ -17,6 +17,12 @@ struct SparseRows
   std::vector<double> values;
 
   int size() const { return static_cast<int>(starts.size()) - 1; }
+  void reserve(std::size_t n_rows, std::size_t n_entries)
+  {
+    starts.reserve(n_rows + 1);
+    columns.reserve(n_entries);
+    values.reserve(n_entries);
+  }
   void clear()
   {
     starts.assign(1, 0);
@@ -32,11 +38,18 @@ struct SparseRows
 class Compliance
 {
 public:
+  /// Set memory aside for so many rows.
+  void reserve(const SupernodalFactor &factor, int n_rows);
+
   /// `load` is L^-1 b: H A^-1 b = Z^T (L^-1 b) comes along.
   void compute(const SupernodalFactor &factor, const SparseRows &rows, const Eigen::VectorXd &load);
 
   /// Lower triangle is set; rows.size() square; mm/N.
-  const Eigen::MatrixXd &result() const { return result_; }
+  Eigen::Map<const Eigen::MatrixXd> result() const
+  {
+    const auto n_rows = static_cast<Eigen::Index>(order_.size());
+    return {result_.data(), n_rows, n_rows};
+  }
 
   /// H A^-1 b of row k, mm.
   double free_change(int k) const { return free_changes_.data()[place_[k]]; }
@@ -58,7 +71,7 @@ private:
   kernels::RightSides sides_at(int supernode) const;
   void add_combination(const SupernodalFactor &factor, Eigen::VectorXd &x) const;
 
-  Eigen::MatrixXd result_;
+  std::vector<double> result_; ///< column-major; only grows
   int n_groups_ = 0;
   std::vector<int> first_supernode_;         ///< of each row
   std::vector<int> order_, place_;           ///< order_[place] = row; place = group * width + lane

@@ -33,6 +33,21 @@ ConstraintSolver::ConstraintSolver()
   openblas_set_num_threads(1);
 }
 
+void ConstraintSolver::reserve(int n_bilateral, int n_contact_rows)
+{
+  const std::size_t b = n_bilateral, c = n_contact_rows, n = b + c;
+  system_.reserve(n * n);
+  factor_.reserve(b * b);
+  coupling_.reserve(c * b);
+  condensed_.reserve(c * c);
+  condensed_gaps_.reserve(c);
+  for (std::vector<double> *list : {&right_side_, &gaps_, &compliances_})
+    list->reserve(n);
+  if (multipliers_.size() < static_cast<Eigen::Index>(n))
+    multipliers_.setZero(static_cast<Eigen::Index>(n));
+  contact_sweeps_.reserve(n_contact_rows);
+}
+
 void ConstraintSolver::reset(int n_rows, int n_bilateral, int rows_per_contact, double friction_coefficient)
 {
   n_rows_ = n_rows;
@@ -52,7 +67,7 @@ void ConstraintSolver::reset(int n_rows, int n_bilateral, int rows_per_contact, 
   sweeps_ = 0;
 }
 
-void ConstraintSolver::add_compliance(const std::vector<int> &rows, const Eigen::MatrixXd &lower)
+void ConstraintSolver::add_compliance(const std::vector<int> &rows, const Eigen::Ref<const Eigen::MatrixXd> &lower)
 {
   for (std::size_t l = 0; l < rows.size(); ++l)
     for (std::size_t k = l; k < rows.size(); ++k)

@@ -18,9 +18,12 @@ class ConstraintSolver
 public:
   static constexpr double least_relative_compliance = 1e-10;
 
-  /// Holds OpenBLAS to one thread, for the whole process: its teams allocate at every call, and sums that depend on their
-  /// size would not be the same for every number of threads.
+  /// Holds OpenBLAS to one thread, for the whole process: its teams allocate at every call, and sums that depend on
+  /// their size would not be the same for every number of threads.
   ConstraintSolver();
+
+  /// Set memory aside.
+  void reserve(int n_bilateral, int n_contact_rows);
 
   /// Start a step with n rows: W = 0. The rows from `n_bilateral` on are contacts of `rows_per_contact` (1, or 3 with
   /// friction) rows each.
@@ -28,7 +31,7 @@ public:
   /// Bilateral rows alone.
   void reset(int n_rows) { reset(n_rows, n_rows); }
   /// Add one body's part of W (lower triangle) over the given rows, which ascend.
-  void add_compliance(const std::vector<int> &rows, const Eigen::MatrixXd &lower);
+  void add_compliance(const std::vector<int> &rows, const Eigen::Ref<const Eigen::MatrixXd> &lower);
   /// What the row must still close after the free motion, mm, and its compliance, mm/N.
   void set_row(int row, double gap, double compliance);
   /// Force of a contact row to start from, N; 0 when not given.

@@ -24,6 +24,13 @@ Slip project(Slip force, double radius)
 }
 } // namespace
 
+void ContactSweeps::reserve(std::size_t n_rows)
+{
+  motion_.reserve(n_rows);
+  normal_stiffness_.reserve(n_rows);
+  slip_stiffness_.reserve(n_rows);
+}
+
 void ContactSweeps::take_motion(const ContactProblem &problem, const double *multipliers)
 {
   const int n = problem.n_rows, stride = problem.rows_per_contact;

@@ -1,6 +1,7 @@
 // Projected Gauss-Seidel on contacts with Coulomb friction.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace pelvireg::registration
@@ -41,6 +42,9 @@ struct SweepLimits
 class ContactSweeps
 {
 public:
+  /// Set memory aside.
+  void reserve(std::size_t n_rows);
+
   /// `multipliers` (n_rows): in, the forces to start from; out, the solution or the last iterate. Number of sweeps.
   int solve(const ContactProblem &problem, const SweepLimits &limits, double *multipliers);
 

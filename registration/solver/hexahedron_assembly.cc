@@ -48,10 +48,13 @@ void HexahedronAssembly::add(const Points &positions, SymmetricBlockMatrix &matr
     for (int a = 0; a < Hexahedron::n_nodes; ++a)
       if (unknowns_[e][a] >= 0)
         load.segment<3>(unknowns_[e][a]) -= force.col(a);
+    const Eigen::Matrix<double, 8, 8> tension = element.tension_stiffness(rotation, x);
     for (int k = contribution_starts_[e]; k < contribution_starts_[e + 1]; ++k)
     {
       const Contribution &c = contributions_[k];
-      matrix.add(c.block, element.stiffness_block(rotation, c.a, c.b));
+      Eigen::Matrix3d block = element.stiffness_block(rotation, c.a, c.b);
+      block.diagonal().array() += tension(c.a, c.b);
+      matrix.add(c.block, block);
     }
   }
 }

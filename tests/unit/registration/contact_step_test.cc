@@ -112,7 +112,9 @@ TEST(ContactStep, KeepsOrgansApartWhereThePlaneSeesNothing)
         EXPECT_EQ(summary.n_open_rays, 0);
         EXPECT_LE(summary.cone_violation, 1e-12);
         EXPECT_LE(summary.contact_motion_residual, 1e-5);
-        EXPECT_TRUE(step < 2 || summary.penetration_depth <= 0.3) << summary.penetration_depth;
+        // Two paraboloids that touch in a point: a cell's mean depth is zero when they are 0.58 of the margin deep.
+        EXPECT_TRUE(step < 2 || summary.penetration_depth <= 0.6 * Options().contact_margin)
+            << summary.penetration_depth;
         if (step == 2 && position == 8)
         {
           EXPECT_EQ(summary.n_contacts > 0, with_contact);
@@ -214,16 +216,16 @@ TEST(ContactStep, PassesForcesThroughAStack)
   EXPECT_LE(equilibrium.last_step.penetration_depth, 0.1);
 }
 
-// Paper, section 5.2: h does not influence the converged configurations. What friction holds depends on the way there,
-// and that on h.
+// Paper, section 5.2: h does not influence the converged configurations. With friction neither: slip counts from where
+// the organs lay when the image changed, not from step to step, so how many steps it took does not matter.
 TEST(ContactStep, ConvergesToTheSameConfigurationForEveryTimeStep)
 {
   const Model model = two_held_organs();
-  for (const double friction : {0.0, 0.1})
+  for (const double friction : {0.0, 0.1, 0.3})
   {
     std::vector<Points> first;
     double worst = 0;
-    for (const double h : friction == 0 ? std::vector<double>{0.005, 0.02, 0.05} : std::vector<double>{0.005, 0.05})
+    for (const double h : {0.005, 0.02, 0.05})
     {
       Options options;
       options.time_step = h;
@@ -232,8 +234,9 @@ TEST(ContactStep, ConvergesToTheSameConfigurationForEveryTimeStep)
       registration.prepare(model, options);
       for (int position = 1; position <= 2; ++position)
       {
-        const Equilibrium equilibrium = registration.settle(
-            outlines(model, {{0, 0, -2.0 * position}}), {.motion_mm = 1e-4, .force_newton = 2e-3, .max_steps = 200});
+        const Equilibrium equilibrium =
+            registration.settle(outlines(model, {{0, 0.5 * position, -2.0 * position}}),
+                                {.motion_mm = 1e-4, .force_newton = 2e-3, .max_steps = 300});
         EXPECT_TRUE(equilibrium.is_reached)
             << h << " " << friction << " " << position << ": " << equilibrium.last_step.largest_motion << " mm, "
             << equilibrium.last_step.unbalanced_force << " N";
@@ -248,7 +251,7 @@ TEST(ContactStep, ConvergesToTheSameConfigurationForEveryTimeStep)
                            (registration.positions(static_cast<int>(body)) - first[body]).rowwise().norm().maxCoeff());
     }
     RecordProperty("worst_" + std::to_string(friction), std::to_string(worst));
-    EXPECT_LE(worst, friction == 0 ? 0.005 : 0.2); // of 4 mm
+    EXPECT_LE(worst, friction == 0 ? 0.005 : 0.01) << friction; // of 4 mm
   }
 }
 
@@ -352,6 +355,9 @@ TEST(ContactStep, RefusesOptionsOutOfRange)
             std::string::npos);
   EXPECT_NE(message_with([&](Options &o) { o.max_recovery = 0; }).find("max_recovery"), std::string::npos);
   EXPECT_NE(message_with([&](Options &o) { o.tolerance_newton = nan; }).find("tolerance_newton"), std::string::npos);
+  EXPECT_NE(message_with([&](Options &o) { o.reserved_contacts = -1; }).find("reserved_contacts"), std::string::npos);
+  EXPECT_NE(message_with([&](Options &o) { o.reserved_control_points = -1; }).find("reserved_control_points"),
+            std::string::npos);
 }
 
 TEST(Settle, StopsAtAFailedStepAndRefusesItsTolerances)

@@ -239,4 +239,40 @@ TEST(Hexahedron, SharesItsVolumeOverTheNodes)
   EXPECT_NEAR(element.volume(), 30, 1e-12);
   EXPECT_NEAR(element.volume_share(0), 30.0 / 8, 1e-12);
 }
+
+// Turned a little, an element 2 % taut is drawn back by its tension alone: sigma V a unit of rotation.
+TEST(Hexahedron, TensionHoldsATautElementInItsLine)
+{
+  const Hexahedron::NodalVectors rest = rest_shape<Hexahedron>();
+  const Hexahedron element(rest, material);
+  std::mt19937 random = generator();
+  const Eigen::Matrix3d axes = random_rotation(random);
+  for (const double strain : {0.02, -0.02})
+  {
+    const Eigen::Vector3d principal(1 + strain, 1 - 0.45 * strain, 1 - 0.45 * strain);
+    const Hexahedron::NodalVectors taut = axes * principal.asDiagonal() * axes.transpose() * rest;
+    const Eigen::Matrix3d rotation = element.rotation(taut);
+    Eigen::Matrix3d turn = axes.col(0) * axes.col(1).transpose();
+    turn = (turn - turn.transpose()).eval();
+    const Hexahedron::NodalVectors motion = turn * taut;
+    const auto force_at = [&](double t)
+    {
+      const Hexahedron::NodalVectors moved = taut + t * motion;
+      return element.force(element.rotation(moved), moved);
+    };
+    const double drawn_back = ((force_at(1e-4) - force_at(-1e-4)) / 2e-4).cwiseProduct(motion).sum();
+    double fixed_rotation = 0, tension = 0;
+    const auto tension_stiffness = element.tension_stiffness(rotation, taut);
+    for (int a = 0; a < 8; ++a)
+      for (int b = 0; b < 8; ++b)
+      {
+        fixed_rotation += motion.col(a).dot(element.stiffness_block(rotation, a, b) * motion.col(b));
+        tension += tension_stiffness(a, b) * motion.col(a).dot(motion.col(b));
+      }
+    const double expected = 0.6 * strain * element.volume(); // E e V
+    EXPECT_NEAR(drawn_back / expected, 1, 0.05);
+    EXPECT_LE(fixed_rotation, 0.05 * std::abs(expected));
+    EXPECT_NEAR(tension / std::abs(expected), strain > 0 ? 1 : 0, 0.05);
+  }
+}
 } // namespace pelvireg::registration

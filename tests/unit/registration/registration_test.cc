@@ -468,4 +468,41 @@ TEST(Prepare, RefusesOptionsOutOfRange)
   options.tolerance_mm = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(prepare_message(model, options).find("tolerance_mm"), std::string::npos);
 }
+
+// A ligament 75 mm long, 10 mm wide, 1.5 mm thick, drawn out by 2.25 mm while its end goes 10 mm sideways. Without the
+// stiffness of tension its middle swings by millimetres for ever.
+TEST(Registration, ATautBandComesToRest)
+{
+  Model model;
+  model.bodies.push_back(scene::block({75, 10, 1.5}, {5, 2, 1}, false));
+  Body &band = model.bodies[0];
+  band.name = "band";
+  PointAttachment pull{"pull", 0, {}, {}, 0};
+  for (int node = 0; node < band.rest_positions.rows(); ++node)
+    if (band.rest_positions(node, 0) < 1e-9)
+      band.fixed_nodes.push_back(node);
+    else if (band.rest_positions(node, 0) > 75 - 1e-9)
+      pull.nodes.push_back(node);
+  pull.points.resize(static_cast<Eigen::Index>(pull.nodes.size()), 3);
+  const auto pull_by = [&](double part)
+  {
+    for (std::size_t k = 0; k < pull.nodes.size(); ++k)
+      pull.points.row(static_cast<Eigen::Index>(k)) =
+          band.rest_positions.row(pull.nodes[k]) + part * Eigen::RowVector3d(1.6, 1, 10);
+  };
+  pull_by(0);
+  model.point_attachments.push_back(pull);
+  Registration registration;
+  registration.prepare(model, {});
+  for (int position = 1; position <= 5; ++position)
+  {
+    pull_by(0.2 * position);
+    registration.move_points(0, pull.points);
+    for (int step = 0; step < 3; ++step)
+      ASSERT_EQ(registration.update({}).status, StepStatus::ok);
+  }
+  const Equilibrium equilibrium = registration.settle({}, {.motion_mm = 1e-3, .force_newton = 1e-3, .max_steps = 60});
+  EXPECT_TRUE(equilibrium.is_reached) << equilibrium.last_step.largest_motion << " mm, "
+                                      << equilibrium.last_step.unbalanced_force << " N";
+}
 } // namespace pelvireg::registration

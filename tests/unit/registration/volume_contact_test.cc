@@ -1,3 +1,4 @@
+#include "registration/constraints/contact_rows.h"
 #include "registration/constraints/volume_contact.h"
 #include "tests/unit/registration/scene.h"
 
