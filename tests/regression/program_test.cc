@@ -48,11 +48,11 @@ struct BadValue
   std::string pattern, replacement, part;
 };
 const std::vector<BadValue> bad_values = {
-    {"\nvagina = 0.66", "\nvagina = 0", "youngs_modulus.vagina"},
+    {"vagina = 0.66", "vagina = 0 #", "youngs_modulus.vagina"},
     {"\nwall = ", "\nwall = -", "wall"},
     {"\ntilt = ", "\ntilted = 1\ntilt = ", "tilted"},
-    {"\ntarget_displacement = 3.6", "\ntarget_displacement = nan", "target_displacement"},
-    {"\nn_increments = 8", "\nn_increments = \"many\"", "n_increments"}};
+    {"\ntarget_displacement = 3.6", "\ntarget_displacement = nan #", "target_displacement"},
+    {"\nn_increments = 8", "\nn_increments = \"many\" #", "n_increments"}};
 
 std::string replaced(std::string text, const std::string &pattern, const std::string &replacement)
 {
