@@ -31,12 +31,35 @@ std::string error_of(const json &summary, const std::string &condition, const st
   return summary.contains(place) ? fmt::format("{:.2f}", summary.at(place).get<double>()) : "-";
 }
 
+std::string mark(const std::string &verdict)
+{
+  return verdict == "confirmed" ? "+" : verdict == "refuted" ? "x" : ".";
+}
+
 std::string verdict_of(const json &summary, const std::string &claim)
 {
   for (const json &entry : summary.at("claims"))
     if (entry.at("id") == claim)
       return entry.at("verdict").get<std::string>();
   return "-";
+}
+/// One column a claim, numbered as in the list under the table.
+std::string claims_table(const std::vector<json> &summaries, std::size_t width)
+{
+  const json &claims = summaries.front().at("claims");
+  std::string text = fmt::format("The paper's claims: confirmed (+), refuted (x), not assessed (.)\n{:<{}}", "", width);
+  for (std::size_t k = 1; k <= claims.size(); ++k)
+    text += fmt::format("{:>4}", k);
+  for (const json &summary : summaries)
+  {
+    text += fmt::format("\n{:<{}}", summary.at("case").get<std::string>(), width);
+    for (const json &claim : claims)
+      text += fmt::format("{:>4}", mark(verdict_of(summary, claim.at("id"))));
+  }
+  text += "\n";
+  for (std::size_t k = 1; k <= claims.size(); ++k)
+    text += fmt::format("{}{} {}", k == 1 ? "" : ", ", k, claims[k - 1].at("id").get<std::string>());
+  return text + "\n";
 }
 } // namespace
 
@@ -63,14 +86,6 @@ std::string case_overview(const std::vector<std::filesystem::path> &directories)
                                         error_of(summary, "full", organ));
     text += summary.value("inverse_crime", false) ? "  (inverse crime)" : "";
   }
-  text += "\n\nThe paper's claims\n";
-  for (const json &claim : summaries.front().at("claims"))
-  {
-    const std::string id = claim.at("id");
-    text += id + "\n";
-    for (const json &summary : summaries)
-      text += fmt::format("  {:<{}}{}\n", summary.at("case").get<std::string>(), width, verdict_of(summary, id));
-  }
-  return text;
+  return text + "\n\n" + claims_table(summaries, width);
 }
 } // namespace pelvireg::cli
