@@ -64,14 +64,28 @@ TEST(Gate, PassesTwoPercentWithAWarningAndCatchesFive)
   }
 }
 
+bool every_run_has(const ErrorResult &result, const FamilyName &family, int abscissa)
+{
+  const auto &runs = result.curves.at(family);
+  return std::all_of(runs.begin(), runs.end(),
+                     [&](const auto &run)
+                     {
+                       return std::any_of(run.second.begin(), run.second.end(),
+                                          [&](const CurvePoint &point) { return point.abscissa == abscissa; });
+                     });
+}
+
 TEST(Gate, CatchesABumpAtEveryPlaceOfEveryCurve)
 {
   for (const FamilyName &name : test::registered_families(stored()))
     for (std::size_t place = 0; place < stored().curves.at(name).at(0).size(); place += 2)
     {
+      const int abscissa = stored().curves.at(name).at(0)[place].abscissa;
+      if (!every_run_has(stored(), name, abscissa)) // a slice that grazes the organ: the rule leaves it out
+        continue;
       const Comparison comparison = gate(stored(), test::with_bump(stored(), name, place, 1.2));
       EXPECT_EQ(verdict_of(comparison, name), Verdict::worse)
-          << name.condition << ", " << name.organ << ", by " << to_string(name.axis) << ", place " << place;
+          << name.condition << ", " << name.organ << ", by " << to_string(name.axis) << ", at " << abscissa;
     }
 }
 
