@@ -30,9 +30,14 @@ void require_same_pelvis(const dataset::Anatomy &anatomy, const dataset::Anatomy
 void make_self_generated_truth(ResultDirectory &directory, const std::string &driver, int jobs)
 {
   const std::filesystem::path folder = directory.path() / "driver";
+  const std::string text = anatomy::case_text(driver);
+  if (anatomy::self_generated_from(text, driver))
+    throw InputError(fmt::format("The case generates itself from '{}', which generates itself too; give a case whose "
+                                 "truth is the reference's as self_generated_from.",
+                                 driver));
   {
     ResultDirectory driving(folder, "driver of " + directory.path().string(), ResultDirectory::Missing::create);
-    make_anatomy(driving, driver, anatomy::case_text(driver));
+    make_anatomy(driving, driver, text);
     make_truth(driving, jobs);
     make_observations(driving);
     make_estimate(driving, {.condition = "full", .perturbation = {}, .samples = 0}, jobs);

@@ -9,6 +9,6 @@ namespace pelvireg::cli
 {
 /// truth.h5 from the registration: the chain of the case `driver` is run in the subfolder "driver" up to its nominal
 /// `full` registration, whose motion becomes the truth. Throws what the stages throw, and InputError when the driver's
-/// pelvis is another one.
+/// pelvis is another one or the driver generates itself too.
 void make_self_generated_truth(ResultDirectory &directory, const std::string &driver, int jobs);
 } // namespace pelvireg::cli
