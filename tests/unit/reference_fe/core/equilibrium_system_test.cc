@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace pelvireg::reference_fe
@@ -62,6 +63,18 @@ EquilibriumSystem chain(int n_springs, double pull, int n_threads)
   system.add_term(std::make_shared<Prescribe>(n_springs, multiplier, pull));
   system.fix(0);
   return system;
+}
+
+TEST(EquilibriumSystem, NamesTheFirstRowThatIsNotFiniteOrElseTheLargest)
+{
+  EquilibriumSystem system = chain(5, 2.0, 1);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(system.n_unknowns());
+  x[4] = 1; // between the springs 3 and 4: the row has both their forces
+  system.assemble(x, false);
+  EXPECT_EQ(system.worst_row(), "displacement 4");
+  x[3] = std::numeric_limits<double>::quiet_NaN();
+  system.assemble(x, false);
+  EXPECT_EQ(system.worst_row(), "displacement 2"); // the other end of spring 2
 }
 
 TEST(EquilibriumSystem, SaddlePointOfHardeningSpringsIsSolvedToTheTolerance)
