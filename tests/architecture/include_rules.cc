@@ -31,7 +31,8 @@ const std::vector<DirectionRule> direction_rules = {
     // The program links everything, but only through each folder's public entries.
     {"validation/cli/",
      {"validation/", "synthetic/dataset/", "registration/registration.h", "reference_fe/reference.h",
-      "reference_fe/decks/decks.h", "synthetic/anatomy/case.h", "synthetic/observation/observe.h"}},
+      "reference_fe/decks/decks.h", "synthetic/anatomy/case.h", "synthetic/observation/observe.h",
+      "synthetic/observation/images/image_files.h"}},
     {"validation/",
      {"validation/metrics/", "validation/runner/", "validation/regression/", "validation/report/", "synthetic/dataset/",
       "registration/registration.h"}},
@@ -52,6 +53,7 @@ const std::vector<LibraryRule> library_rules = {
     {"VTK", {"vtk"}, {"validation/report/", "tests/"}},
     {"HDF5", {"hdf5", "H5"}, {"synthetic/dataset/", "tests/unit/dataset/"}},
     {"OpenCV", {"opencv2/"}, {"registration/tracking/", "tests/"}},
+    {"GDCM", {"gdcm"}, {"synthetic/observation/images/", "tests/unit/observation/"}},
 };
 
 std::string join(const std::vector<std::string> &words)
