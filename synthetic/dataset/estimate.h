@@ -91,4 +91,6 @@ struct Estimate
 /// The rest surfaces of the file are those of the first sample; a sample whose rest points differ keeps its own.
 void save(const Estimate &estimate, const std::filesystem::path &file);
 Estimate load_estimate(const std::filesystem::path &file);
+/// With its first run alone, which is the nominal one of a whole estimate; the others are not read.
+Estimate load_first_run(const std::filesystem::path &file);
 } // namespace pelvireg::dataset

@@ -71,7 +71,7 @@ void make_report(ResultDirectory &directory, Judge &judge)
                    report::write_report({.evaluation = judgement.evaluation,
                                          .anatomy = judgement.anatomy,
                                          .truth = judgement.truth,
-                                         .estimates = judgement.estimates,
+                                         .estimates = judgement.nominal_runs,
                                          .timings = recorded_timings(directory),
                                          .pictures = draw_pictures(directory, progress),
                                          .provenance = provenance},

@@ -17,12 +17,12 @@ void make_anatomy(ResultDirectory &directory, const std::string &case_name, cons
 void make_truth(ResultDirectory &directory, int jobs, const std::string &log_file = {});
 /// observations.h5
 void make_observations(ResultDirectory &directory);
-/// Everything in the directory, loaded and judged.
+/// Everything in the directory, judged.
 struct Judgement
 {
   dataset::Anatomy anatomy;
   dataset::Truth truth;
-  std::vector<dataset::Estimate> estimates;
+  std::vector<dataset::Estimate> nominal_runs; ///< of every estimate, for the pictures of it
   runner::Evaluation evaluation;
 };
 
