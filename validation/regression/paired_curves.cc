@@ -28,6 +28,19 @@ std::set<int> common_abscissae(const Family &family)
   return common;
 }
 
+/// The judge puts one point on a mm of the truth's contour.
+bool grazes(const Curve &nominal, int abscissa, const Rule &rule)
+{
+  int here = 0, longest = 0;
+  for (const CurvePoint &point : nominal)
+  {
+    longest = std::max(longest, point.n_points);
+    if (point.abscissa == abscissa)
+      here = point.n_points;
+  }
+  return here < rule.grazing_share * longest;
+}
+
 PickedCurve pick(const Curve &curve, const std::vector<int> &abscissae)
 {
   PickedCurve points;
@@ -42,14 +55,21 @@ bool is_same(double before, double now, const Rule &rule)
   return std::abs(now - before) <=
          rule.same_absolute_mm + rule.same_relative * std::max(std::abs(before), std::abs(now));
 }
+
+bool is_finite(const CurvePoint &point)
+{
+  return std::isfinite(point.mean) && std::isfinite(point.sd) && std::isfinite(point.p95) && std::isfinite(point.max);
+}
 } // namespace
 
-PairedCurves pair_up(const Family &baseline, const Family &current)
+PairedCurves pair_up(const Family &baseline, const Family &current, const Rule &rule)
 {
   PairedCurves paired;
   const std::set<int> before = common_abscissae(baseline), now = common_abscissae(current);
   std::set_intersection(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(paired.abscissae));
-  std::set_difference(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(paired.lost));
+  for (const int abscissa : before)
+    if (!now.contains(abscissa))
+      (grazes(baseline.at(0), abscissa, rule) ? paired.lost_grazing : paired.lost).push_back(abscissa);
   for (const auto &[sample, curve] : baseline)
   {
     paired.samples.push_back(sample);
@@ -85,6 +105,10 @@ std::string place_problem(const PairedCurves &paired, const Rule &rule)
     for (std::size_t i = 0; i < paired.abscissae.size(); ++i)
     {
       const CurvePoint &before = *paired.baseline[run][i], &now = *paired.current[run][i];
+      for (const CurvePoint *point : {&before, &now})
+        if (!is_finite(*point))
+          return fmt::format("a figure of {} at {} is not finite, sample {}", point == &now ? "CURRENT" : "BASELINE",
+                             point->abscissa, paired.samples[run]);
       if (!(std::abs(now.offset - before.offset) <= 1e-6))
         return fmt::format("slice {} lies at {:g} mm, was {:g} mm", now.abscissa, now.offset, before.offset);
       const double allowed = std::max<double>(rule.points_absolute, rule.points_relative * before.n_points);
