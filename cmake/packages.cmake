@@ -16,7 +16,7 @@ find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel FiltersCore IOHDF IOXML IOImage FiltersGeneral FiltersSources
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel FiltersCore IOGeometry IOHDF IOXML IOImage FiltersGeneral FiltersSources
              RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation InteractionStyle)
 
 add_library(gmsh_api INTERFACE)
