@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <iterator>
 #include <set>
+#include <utility>
 
 namespace pelvireg::regression
 {
@@ -81,6 +82,11 @@ PairedCurves pair_up(const Family &baseline, const Family &current, const Rule &
 
 std::string pairing_problem(const FamilyName &name, const Family &baseline, const Family &current)
 {
+  for (const auto &[family, side] : {std::pair(&baseline, "BASELINE"), std::pair(&current, "CURRENT")})
+    for (const auto &[sample, curve] : *family)
+      for (const CurvePoint &point : curve)
+        if (!is_finite(point))
+          return fmt::format("{}, sample {}: a figure at {} is not finite", side, sample, point.abscissa);
   for (const auto &[sample, curve] : baseline)
     if (!current.contains(sample))
       return fmt::format("sample {} is not in CURRENT", sample);
@@ -105,10 +111,6 @@ std::string place_problem(const PairedCurves &paired, const Rule &rule)
     for (std::size_t i = 0; i < paired.abscissae.size(); ++i)
     {
       const CurvePoint &before = *paired.baseline[run][i], &now = *paired.current[run][i];
-      for (const CurvePoint *point : {&before, &now})
-        if (!is_finite(*point))
-          return fmt::format("a figure of {} at {} is not finite, sample {}", point == &now ? "CURRENT" : "BASELINE",
-                             point->abscissa, paired.samples[run]);
       if (!(std::abs(now.offset - before.offset) <= 1e-6))
         return fmt::format("slice {} lies at {:g} mm, was {:g} mm", now.abscissa, now.offset, before.offset);
       const double allowed = std::max<double>(rule.points_absolute, rule.points_relative * before.n_points);

@@ -23,7 +23,8 @@ struct PairedCurves
   std::vector<int> lost, lost_grazing;
 };
 
-/// Why the families cannot be laid side by side (other samples, no nominal run, other steps); empty when they can.
+/// Why the families cannot be laid side by side (a figure that is not finite, other samples, no nominal run, other
+/// steps); empty when they can.
 std::string pairing_problem(const FamilyName &name, const Family &baseline, const Family &current);
 
 /// Lay them side by side. A slice that some run of the baseline does not meet is left out.
