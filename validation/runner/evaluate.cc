@@ -160,6 +160,7 @@ Evaluation evaluate(const dataset::Anatomy &anatomy, const dataset::Truth &truth
                     const std::vector<dataset::Estimate> &estimates, const EvaluateOptions &options)
 {
   std::vector<RunSource> sources;
+  sources.reserve(estimates.size());
   for (const dataset::Estimate &estimate : estimates)
     sources.push_back(runs_of(estimate));
   return evaluate_runs(anatomy, truth, sources, options);
