@@ -93,6 +93,8 @@ Context prepare(const dataset::Anatomy &anatomy, const dataset::Truth &truth, co
   context.n_increments = static_cast<int>(context.truth.front().increments.size());
   return context;
 }
+
+/// The run is in memory while it is judged.
 RunResult fetch_and_judge(const Context &context, const RunToJudge &run)
 {
   if (!run.source)
