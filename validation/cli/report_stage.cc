@@ -5,28 +5,64 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+#include <utility>
+
 namespace pelvireg::cli
 {
 namespace
 {
 const std::string picture_folder = "pictures";
 
+/// The stages of the chain as they are recorded, in order, without the report itself.
+std::vector<std::pair<std::string, StageRecord>> recorded_stages(const Manifest &manifest)
+{
+  std::vector<std::pair<std::string, StageRecord>> stages;
+  for (const std::string &name : stage_order())
+    if (const auto stage = manifest.stages.find(name); stage != manifest.stages.end() && name != "report")
+      stages.emplace_back(name, stage->second);
+  return stages;
+}
+
 /// What made the result. It holds nothing of this call, so that the same result gives the same report.
 std::vector<report::ProvenanceEntry> provenance_of(const Manifest &manifest)
 {
   std::vector<report::ProvenanceEntry> entries = {
       {"program", fmt::format("pelvireg {}, revision {}, {}", version(), revision(), build())}};
-  for (const std::string &name : stage_order())
+  for (const auto &[name, stage] : recorded_stages(manifest))
   {
-    const auto stage = manifest.stages.find(name);
-    if (stage == manifest.stages.end() || name == "report")
-      continue;
-    entries.push_back({name, fmt::format("{:.1f} s, '{}', revision {}", stage->second.seconds,
-                                         stage->second.command_line, stage->second.revision)});
-    for (const auto &[file, digest] : stage->second.outputs)
+    entries.push_back(
+        {name, fmt::format("{:.1f} s, '{}', revision {}", stage.seconds, stage.command_line, stage.revision)});
+    for (const auto &[file, digest] : stage.outputs)
       entries.push_back({"SHA-256 of " + file, digest});
   }
   return entries;
+}
+
+std::vector<report::StageTime> times_of(const Manifest &manifest)
+{
+  std::vector<report::StageTime> times;
+  for (const auto &[name, stage] : recorded_stages(manifest))
+    times.push_back({name, stage.seconds});
+  return times;
+}
+
+/// The command lines behind the stages, each once.
+std::vector<std::string> commands_of(const Manifest &manifest)
+{
+  std::vector<std::string> commands;
+  for (const auto &[name, stage] : recorded_stages(manifest))
+    if (std::find(commands.begin(), commands.end(), stage.command_line) == commands.end())
+      commands.push_back(stage.command_line);
+  return commands;
+}
+
+std::optional<dataset::Observations> observations_of(const ResultDirectory &directory)
+{
+  if (!directory.has("observations.h5"))
+    return std::nullopt;
+  return dataset::load_observations(directory.path() / "observations.h5");
 }
 
 std::vector<std::string> picture_files()
@@ -59,6 +95,8 @@ void make_report(ResultDirectory &directory, Judge &judge)
   std::vector<std::string> inputs = {"anatomy.h5", "truth.h5", "summary.json"};
   for (const std::string &estimate : estimate_files(directory))
     inputs.push_back(estimate);
+  if (directory.has("observations.h5"))
+    inputs.push_back("observations.h5");
   directory.run({.name = "report",
                  .code = {"validation/metrics", "validation/runner", "validation/report", "synthetic/dataset"},
                  .options = options,
@@ -68,13 +106,17 @@ void make_report(ResultDirectory &directory, Judge &judge)
                  .work = [&](Progress &progress) -> Notes
                  {
                    const Judgement &judgement = judge.of(directory, progress);
+                   const auto observations = observations_of(directory);
                    report::write_report({.evaluation = judgement.evaluation,
                                          .anatomy = judgement.anatomy,
                                          .truth = judgement.truth,
                                          .estimates = judgement.estimates,
                                          .timings = recorded_timings(directory),
                                          .pictures = draw_pictures(directory, progress),
-                                         .provenance = provenance},
+                                         .provenance = provenance,
+                                         .stages = times_of(directory.manifest()),
+                                         .commands = commands_of(directory.manifest()),
+                                         .observations = observations ? &*observations : nullptr},
                                         directory.path() / "report.html");
                    return {};
                  }});

@@ -4,16 +4,14 @@
 #include "validation/metrics/plane_cut.h"
 #include "validation/metrics/statistics.h"
 #include "validation/report/html.h"
-#include "validation/report/line_plot.h"
+#include "validation/report/plane_view.h"
 #include "validation/runner/aggregate.h"
-#include "validation/runner/evaluate_checks.h"
-#include "validation/runner/outer_surface.h"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace pelvireg::report
 {
@@ -34,11 +32,11 @@ std::vector<std::string> panel_order(const runner::Evaluation &evaluation)
 
 /// One scale for all panels. A few outliers (a slice that grazes one end of an organ) must not flatten every curve:
 /// when the largest value is more than three times the 95th percentile, the axis ends at twice that percentile.
-double common_scale(const std::vector<LinePlot> &plots)
+double common_scale(const std::vector<NamedPlot> &plots)
 {
   std::vector<double> values;
-  for (const LinePlot &plot : plots)
-    for (const Curve &curve : plot.curves)
+  for (const NamedPlot &plot : plots)
+    for (const Curve &curve : plot.plot.curves)
       for (std::size_t i = 0; i < curve.values.size(); ++i)
         if (curve.values[i])
           values.push_back(*curve.values[i] + (curve.spreads.empty() ? 0.0 : curve.spreads[i]));
@@ -49,16 +47,18 @@ double common_scale(const std::vector<LinePlot> &plots)
   return scale > 0 ? scale : 1;
 }
 
-std::string row_of_panels(std::vector<LinePlot> plots)
+std::vector<NamedPlot> with_common_scale(std::vector<NamedPlot> plots)
 {
   const double y_max = common_scale(plots);
-  std::string html = "<div class=\"legend\">" + legend_svg(organ_names) + "</div><div class=\"panels\">\n";
-  for (LinePlot &plot : plots)
-  {
-    plot.y_max = y_max;
-    html += "<figure>" + line_plot_svg(plot) + "</figure>\n";
-  }
-  return html + "</div>\n";
+  for (NamedPlot &plot : plots)
+    plot.plot.y_max = y_max;
+  return plots;
+}
+
+/// The conditions of the paper, and doing nothing: what is seen at first.
+bool is_main(const std::string &condition)
+{
+  return condition == "full" || condition == "no_boundary_conditions" || condition == runner::unregistered;
 }
 
 Curve step_curve(const runner::Evaluation &evaluation, const std::string &condition, const std::string &organ)
@@ -83,18 +83,12 @@ Curve slice_curve(const runner::Evaluation &evaluation, const std::string &condi
   return curve;
 }
 
-/// From mm in space to units of the drawing: posterior to the right, superior up, as seen from the left.
-struct PlaneView
+/// From mm in space to units of the drawing.
+struct ScaledView
 {
-  Eigen::Vector3d origin, right, up;
+  PlaneView flat;
   double scale = 1, x_offset = 0, y_offset = 0;
 
-  explicit PlaneView(const dataset::Plane &plane) : origin(plane.origin)
-  {
-    up = (Eigen::Vector3d::UnitZ() - plane.normal.z() * plane.normal).normalized();
-    right = up.cross(plane.normal);
-  }
-  Eigen::Vector2d flat(const Eigen::Vector3d &p) const { return {right.dot(p - origin), -up.dot(p - origin)}; }
   Eigen::Vector2d operator()(const Eigen::Vector3d &p) const
   {
     return scale * flat(p) + Eigen::Vector2d(x_offset, y_offset);
@@ -104,15 +98,15 @@ struct PlaneView
 /// One set of contours, all organs.
 using Cuts = std::vector<std::vector<metrics::CutSegment>>;
 
-Cuts cut_all(const std::vector<dataset::SurfaceMesh> &surfaces, const dataset::Plane &plane)
+Cuts cut_all(const std::vector<MovingSurface> &organs, std::size_t frame, const dataset::Plane &plane)
 {
   Cuts cuts;
-  for (const dataset::SurfaceMesh &surface : surfaces)
-    cuts.push_back(metrics::cut_surface(surface.points, surface.triangles, surface.region, plane));
+  for (const MovingSurface &organ : organs)
+    cuts.push_back(metrics::cut_surface(organ.at(frame), organ.rest.triangles, organ.rest.region, plane));
   return cuts;
 }
 
-std::string draw(const Cuts &cuts, const PlaneView &view, const std::string &stroke)
+std::string draw(const Cuts &cuts, const ScaledView &view, const std::string &stroke)
 {
   std::string path;
   for (const auto &organ : cuts)
@@ -124,47 +118,8 @@ std::string draw(const Cuts &cuts, const PlaneView &view, const std::string &str
   return fmt::format("<path d=\"{}\" fill=\"none\" stroke-linecap=\"round\" {}/>\n", path, stroke);
 }
 
-std::vector<dataset::SurfaceMesh> truth_at_end(const dataset::Truth &truth)
-{
-  std::vector<dataset::SurfaceMesh> surfaces;
-  for (const std::string &organ : organ_names)
-  {
-    const dataset::TruthSurface &surface = runner::truth_surface(truth, organ);
-    surfaces.push_back(surface.rest);
-    surfaces.back().points += surface.displacements.back();
-  }
-  return surfaces;
-}
-
-std::vector<dataset::SurfaceMesh> rest_of(const dataset::Anatomy &anatomy)
-{
-  std::vector<dataset::SurfaceMesh> surfaces;
-  for (const std::string &organ : organ_names)
-  {
-    const auto body = static_cast<std::size_t>(runner::body_index(anatomy.registration, organ));
-    surfaces.push_back(runner::outer_surface(anatomy.registration.bodies[body]).rest);
-  }
-  return surfaces;
-}
-
-std::vector<dataset::SurfaceMesh> estimate_at_end(const dataset::EstimateSample &sample)
-{
-  std::vector<dataset::SurfaceMesh> surfaces;
-  for (const dataset::EstimateSurface &surface : sample.surfaces)
-    surfaces.push_back({surface.positions.back(), surface.rest.triangles, surface.rest.region});
-  return surfaces;
-}
-
-const dataset::EstimateSample *nominal_run(const dataset::Estimate &estimate)
-{
-  for (const dataset::EstimateSample &sample : estimate.samples)
-    if (sample.sample == 0)
-      return &sample;
-  return nullptr;
-}
-
 /// Scale and shift the view so that all contours fit; returns the drawing's height for a width of 560.
-double fit(PlaneView &view, const std::vector<Cuts> &all)
+double fit(ScaledView &view, const std::vector<Cuts> &all)
 {
   Eigen::Vector2d lower = Eigen::Vector2d::Constant(1e300), upper = -lower;
   for (const Cuts &cuts : all)
@@ -182,7 +137,7 @@ double fit(PlaneView &view, const std::vector<Cuts> &all)
   return view.scale * (upper.y() - lower.y()) + 2 * margin + 48;
 }
 
-std::string organ_labels(const Cuts &truth, const PlaneView &view)
+std::string organ_labels(const Cuts &truth, const ScaledView &view)
 {
   std::string svg;
   for (std::size_t organ = 0; organ < truth.size(); ++organ)
@@ -205,7 +160,7 @@ const std::string truth_stroke = "stroke=\"#000\" stroke-width=\"2.6\"";
 const std::string estimate_stroke = "stroke=\"#D55E00\" stroke-width=\"1.6\"";
 
 std::string overlay_panel(const std::string &title, const Cuts &rest, const Cuts &truth, const Cuts &estimate,
-                          const PlaneView &view, double height)
+                          const ScaledView &view, double height)
 {
   const double bar = 20 * view.scale;
   std::string svg = fmt::format("<svg viewBox=\"0 0 560 {:.0f}\" role=\"img\" aria-label=\"{}\" font-size=\"13\">\n",
@@ -232,9 +187,9 @@ std::string condition_title(const std::string &condition)
   return condition;
 }
 
-std::string error_by_step_figure(const runner::Evaluation &evaluation)
+std::vector<NamedPlot> error_by_step_plots(const runner::Evaluation &evaluation)
 {
-  std::vector<LinePlot> plots;
+  std::vector<NamedPlot> plots;
   for (const std::string &condition : panel_order(evaluation))
   {
     LinePlot plot{condition_title(condition), "registration step", "mean surface error (mm)", {}, {}, 1, 5, {}};
@@ -243,14 +198,14 @@ std::string error_by_step_figure(const runner::Evaluation &evaluation)
       plot.abscissae.push_back(step);
     for (const std::string &organ : organ_names)
       plot.curves.push_back(step_curve(evaluation, condition, organ));
-    plots.push_back(plot);
+    plots.push_back({condition, plot});
   }
-  return row_of_panels(plots);
+  return with_common_scale(std::move(plots));
 }
 
-std::string error_by_slice_figure(const runner::Evaluation &evaluation)
+std::vector<NamedPlot> error_by_slice_plots(const runner::Evaluation &evaluation)
 {
-  std::vector<LinePlot> plots;
+  std::vector<NamedPlot> plots;
   for (const std::string &condition : panel_order(evaluation))
   {
     LinePlot plot{
@@ -259,37 +214,54 @@ std::string error_by_slice_figure(const runner::Evaluation &evaluation)
       plot.abscissae.push_back(k);
     for (const std::string &organ : organ_names)
       plot.curves.push_back(slice_curve(evaluation, condition, organ));
-    plots.push_back(plot);
+    plots.push_back({condition, plot});
   }
-  return row_of_panels(plots);
+  return with_common_scale(std::move(plots));
 }
 
-std::string plane_overlay_figure(const ReportInputs &inputs)
+std::string panels_html(const std::vector<NamedPlot> &plots)
+{
+  std::string first, others;
+  for (const NamedPlot &plot : plots)
+    (is_main(plot.condition) ? first : others) += "<figure>" + line_plot_svg(plot.plot) + "</figure>\n";
+  std::string html = "<div class=\"legend\">" + legend_svg(organ_names) + "</div><div class=\"panels\">\n" +
+                     (first.empty() ? others : first) + "</div>\n";
+  if (!first.empty() && !others.empty())
+    html += details("Other conditions", "<div class=\"panels\">\n" + others + "</div>\n");
+  return html;
+}
+
+std::string plane_overlay_figure(const ReportInputs &inputs, const std::vector<MovingSurface> &truth_surfaces,
+                                 const std::vector<ConditionSurfaces> &conditions)
 {
   const dataset::Plane &plane = inputs.anatomy.dyn_plane;
-  const Cuts rest = cut_all(rest_of(inputs.anatomy), plane);
-  const Cuts truth = cut_all(truth_at_end(inputs.truth), plane);
-  std::vector<Cuts> all = {rest, truth};
-  std::vector<std::string> titles;
-  for (const std::string &condition : panel_order(inputs.evaluation))
-    for (const dataset::Estimate &estimate : inputs.estimates)
-      if (const dataset::EstimateSample *run = nominal_run(estimate); run && estimate.label() == condition)
+  const std::size_t last = static_cast<std::size_t>(inputs.evaluation.n_steps());
+  const Cuts truth = cut_all(truth_surfaces, last, plane);
+  std::vector<Cuts> all = {{}, truth};
+  std::vector<std::string> names;
+  for (const std::string &name : panel_order(inputs.evaluation))
+    for (const ConditionSurfaces &condition : conditions)
+      if (condition.condition == runner::unregistered && name == condition.condition)
+        all[0] = cut_all(condition.organs, 0, plane);
+      else if (condition.condition == name)
       {
-        all.push_back(cut_all(estimate_at_end(*run), plane));
-        titles.push_back(condition_title(condition));
+        all.push_back(cut_all(condition.organs, last, plane));
+        names.push_back(name);
       }
-  PlaneView view(plane);
+  ScaledView view{PlaneView(plane)};
   const double height = fit(view, all);
   std::string html = fmt::format("<p class=\"key\"><svg viewBox=\"0 0 560 20\" font-size=\"13\" role=\"img\" "
                                  "aria-label=\"Key\"><path d=\"M4 10h30\" {}/><text x=\"40\" y=\"14\">rest</text>"
                                  "<path d=\"M104 10h30\" {}/><text x=\"140\" y=\"14\">truth</text>"
                                  "<path d=\"M204 10h30\" {}/><text x=\"240\" y=\"14\">estimate</text></svg></p>\n",
                                  rest_stroke, truth_stroke, estimate_stroke);
-  html += "<div class=\"panels wide\">\n";
-  for (std::size_t i = 0; i < titles.size(); ++i)
-    html += "<figure>" + overlay_panel(titles[i], rest, truth, all[i + 2], view, height) + "</figure>\n";
-  if (titles.empty())
-    html += "<figure>" + overlay_panel("not registered", rest, truth, {}, view, height) + "</figure>\n";
-  return html + "</div>\n";
+  std::string first, others;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    (is_main(names[i]) ? first : others) +=
+        "<figure>" + overlay_panel(condition_title(names[i]), all[0], truth, all[i + 2], view, height) + "</figure>\n";
+  if (names.empty())
+    first = "<figure>" + overlay_panel("not registered", all[0], truth, {}, view, height) + "</figure>\n";
+  html += "<div class=\"panels wide\">\n" + first + "</div>\n";
+  return others.empty() ? html : html + details("Other conditions", "<div class=\"panels wide\">\n" + others + "</div>\n");
 }
 } // namespace pelvireg::report

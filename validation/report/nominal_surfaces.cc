@@ -1,0 +1,67 @@
+#include "validation/report/nominal_surfaces.h"
+
+#include "validation/runner/evaluate_checks.h"
+#include "validation/runner/outer_surface.h"
+
+#include <cstddef>
+
+namespace pelvireg::report
+{
+namespace
+{
+using dataset::organ_names;
+
+ConditionSurfaces unmoved(const dataset::Anatomy &anatomy)
+{
+  ConditionSurfaces surfaces{runner::unregistered, {}};
+  for (const std::string &organ : organ_names)
+  {
+    const auto body = static_cast<std::size_t>(runner::body_index(anatomy.registration, organ));
+    const dataset::SurfaceMesh rest = runner::outer_surface(anatomy.registration.bodies[body]).rest;
+    surfaces.organs.push_back({rest, {rest.points}});
+  }
+  return surfaces;
+}
+
+ConditionSurfaces moved(const std::string &label, const dataset::EstimateSample &run)
+{
+  ConditionSurfaces surfaces{label, {}};
+  for (const dataset::EstimateSurface &surface : run.surfaces)
+  {
+    MovingSurface organ{surface.rest, {surface.rest.points}};
+    organ.frames.insert(organ.frames.end(), surface.positions.begin(), surface.positions.end());
+    surfaces.organs.push_back(std::move(organ));
+  }
+  return surfaces;
+}
+} // namespace
+
+std::vector<MovingSurface> truth_surfaces(const dataset::Truth &truth)
+{
+  std::vector<MovingSurface> organs;
+  for (const std::string &name : organ_names)
+  {
+    const dataset::TruthSurface &surface = runner::truth_surface(truth, name);
+    MovingSurface organ{surface.rest, {surface.rest.points}};
+    for (const dataset::Points &displacement : surface.displacements)
+      organ.frames.emplace_back(surface.rest.points + displacement);
+    organs.push_back(std::move(organ));
+  }
+  return organs;
+}
+
+std::vector<ConditionSurfaces> nominal_surfaces(const ReportInputs &inputs)
+{
+  std::vector<ConditionSurfaces> conditions;
+  for (const std::string &condition : inputs.evaluation.conditions)
+  {
+    if (condition == runner::unregistered)
+      conditions.push_back(unmoved(inputs.anatomy));
+    for (const dataset::Estimate &estimate : inputs.estimates)
+      for (const dataset::EstimateSample &run : estimate.samples)
+        if (estimate.label() == condition && run.sample == 0)
+          conditions.push_back(moved(condition, run));
+  }
+  return conditions;
+}
+} // namespace pelvireg::report
