@@ -1,5 +1,6 @@
 #include "validation/report/error_sections.h"
 
+#include "validation/report/condition_order.h"
 #include "validation/report/html.h"
 #include "validation/runner/aggregate.h"
 
@@ -34,7 +35,9 @@ std::vector<std::string> row_of(const std::string &heading, const std::vector<st
 {
   std::vector<std::string> row = {heading};
   for (const auto &value : values)
-    row.push_back(value ? fmt::format("{:.3f} ± {:.3f}", value->mean, value->sd) : "–");
+    row.push_back(!value              ? "–"
+                  : value->n_runs > 1 ? fmt::format("{:.3f} ± {:.3f}", value->mean, value->sd)
+                                      : fmt::format("{:.3f}", value->mean));
   return row;
 }
 
@@ -58,35 +61,54 @@ std::string verdict_sentence(const std::vector<runner::ClaimVerdict> &claims)
                      claims.size(), count("confirmed"), count("refuted"), count("not assessed"));
 }
 
-std::string error_table_html(const runner::Evaluation &evaluation)
+namespace
 {
-  std::vector<std::string> heading = {evaluation.is_inverse_crime ? "Mean surface error (mm), inverse crime"
-                                                                  : "Mean surface error (mm)"};
-  heading.insert(heading.end(), organ_names.begin(), organ_names.end());
-  std::vector<std::string> mesh_difference = {"meshes at rest, before any motion"};
-  for (const runner::OrganMotion &organ : evaluation.motion)
-    mesh_difference.push_back(fmt::format("{:.2f}", organ.mesh_difference.mean));
-  std::vector<std::vector<std::string>> rows = {mesh_difference};
-  for (const std::string &condition : evaluation.conditions)
+std::vector<std::vector<std::string>> error_rows(const runner::Evaluation &evaluation, const std::string &condition)
+{
+  std::vector<std::string> last = {condition + ", last step"}, largest = {condition + ", largest over all steps"},
+                           reduction = {condition + ", below unregistered, last step"};
+  for (const std::string &organ : organ_names)
   {
-    std::vector<std::string> last = {condition + ", last step"}, largest = {condition + ", largest over all steps"},
-                             reduction = {condition + ", below unregistered, last step"};
-    for (const std::string &organ : organ_names)
-    {
-      const auto by_step = runner::error_by_step(evaluation, condition, organ);
-      const auto worst = std::max_element(by_step.begin(), by_step.end(),
-                                          [](const auto &a, const auto &b) { return a.mean < b.mean; });
-      const double nothing = runner::error_by_step(evaluation, runner::unregistered, organ).back().mean;
-      last.push_back(millimetres(by_step.back()));
-      largest.push_back(millimetres(*worst));
-      reduction.push_back(nothing > 0 ? fmt::format("{:.0f} %", 100 * (1 - by_step.back().mean / nothing)) : "–");
-    }
-    rows.push_back(last);
-    rows.push_back(largest);
-    if (condition != runner::unregistered)
-      rows.push_back(reduction);
+    const auto by_step = runner::error_by_step(evaluation, condition, organ);
+    const auto worst = std::max_element(by_step.begin(), by_step.end(),
+                                        [](const auto &a, const auto &b) { return a.mean < b.mean; });
+    const double nothing = runner::error_by_step(evaluation, runner::unregistered, organ).back().mean;
+    last.push_back(millimetres(by_step.back()));
+    largest.push_back(millimetres(*worst));
+    reduction.push_back(nothing > 0 ? fmt::format("{:.0f} %", 100 * (1 - by_step.back().mean / nothing)) : "–");
   }
-  return table(heading, rows);
+  if (condition == runner::unregistered)
+    return {last, largest};
+  return {last, largest, reduction};
+}
+
+/// What no registration can be held to: the truth's own error bar, and two meshes of one shape.
+std::vector<std::vector<std::string>> floor_rows(const runner::Evaluation &evaluation, const dataset::Truth &truth)
+{
+  std::vector<std::vector<std::string>> rows = {{"the two meshes at rest, before any motion"}};
+  for (const runner::OrganMotion &organ : evaluation.motion)
+    rows.back().push_back(fmt::format("{:.2f}", organ.mesh_difference.mean));
+  if (!truth.discretisation_error)
+    return rows;
+  const dataset::Points4 &mean = truth.discretisation_error->mean_by_organ;
+  rows.push_back({"the truth's own error bar, mean"});
+  for (Eigen::Index organ = 0; organ < mean.cols(); ++organ)
+    rows.back().push_back(fmt::format("{:.2f}", mean(mean.rows() - 1, organ)));
+  return rows;
+}
+} // namespace
+
+std::string error_table_html(const runner::Evaluation &evaluation, const dataset::Truth &truth)
+{
+  const std::vector<std::string> heading = organ_heading(
+      evaluation.is_inverse_crime ? "Mean surface error (mm), inverse crime" : "Mean surface error (mm)");
+  std::vector<std::vector<std::string>> rows, others;
+  for (const std::string &condition : reading_order(evaluation))
+    for (const auto &row : error_rows(evaluation, condition))
+      (is_main_condition(condition) ? rows : others).push_back(row);
+  for (const auto &row : floor_rows(evaluation, truth))
+    rows.push_back(row);
+  return table(heading, rows) + (others.empty() ? "" : details("Other conditions", table(heading, others)));
 }
 
 std::string claims_html(const std::vector<runner::ClaimVerdict> &claims)
@@ -115,7 +137,7 @@ std::string aims_html(const std::vector<runner::Aim> &aims)
 std::string step_tables_html(const runner::Evaluation &evaluation)
 {
   std::string html;
-  for (const std::string &condition : evaluation.conditions)
+  for (const std::string &condition : reading_order(evaluation))
   {
     std::vector<std::vector<runner::Aggregate>> curves;
     for (const std::string &organ : organ_names)
@@ -136,7 +158,7 @@ std::string step_tables_html(const runner::Evaluation &evaluation)
 std::string slice_tables_html(const runner::Evaluation &evaluation)
 {
   std::string html;
-  for (const std::string &condition : evaluation.conditions)
+  for (const std::string &condition : reading_order(evaluation))
   {
     std::vector<std::vector<std::optional<runner::Aggregate>>> curves;
     for (const std::string &organ : organ_names)
@@ -154,24 +176,24 @@ std::string slice_tables_html(const runner::Evaluation &evaluation)
   return html;
 }
 
-std::string worst_places_html(const std::vector<WorstPlace> &places)
+std::string worst_places_html(const runner::Evaluation &evaluation, const std::vector<WorstPlace> &places)
 {
-  std::string html;
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < places.size(); ++i)
+  const auto of_condition = [&](const std::string &condition) -> std::string
   {
-    const WorstPlace &place = places[i];
-    rows.push_back({place.organ, fmt::format("{:.2f}", place.error),
-                    fmt::format("{:.0f} {}", std::abs(place.offset), place.offset >= 0 ? "left" : "right"),
-                    fmt::format("{:.0f}, {:.0f}, {:.0f}", place.position.x(), place.position.y(), place.position.z())});
-    if (i + 1 < places.size() && places[i + 1].condition == place.condition)
-      continue;
-    html += "<div class=\"worst\" data-condition=\"" + escape(place.condition) + "\"><h3>" + escape(place.condition) +
-            "</h3>" +
-            table({"organ", "error (mm)", "from the image plane (mm)", "place, LPS (mm)"}, rows) + "</div>\n";
-    rows.clear();
-  }
-  return "<div class=\"worst-grid\">\n" + html + "</div>\n";
+    std::vector<std::vector<std::string>> rows;
+    for (const WorstPlace &place : places)
+      if (place.condition == condition)
+        rows.push_back(
+            {place.organ, fmt::format("{:.2f}", place.error),
+             fmt::format("{:.0f} {}", std::abs(place.offset), place.offset >= 0 ? "left" : "right"),
+             fmt::format("{:.0f}, {:.0f}, {:.0f}", place.position.x(), place.position.y(), place.position.z())});
+    if (rows.empty())
+      return "";
+    return "<div class=\"worst\" data-condition=\"" + escape(condition) + "\"><h3>" +
+           escape(condition_title(condition)) + "</h3>" +
+           table({"organ", "error (mm)", "from the image plane (mm)", "place, LPS (mm)"}, rows) + "</div>\n";
+  };
+  return "<div class=\"worst-grid\">\n" + by_condition(evaluation, of_condition) + "</div>\n";
 }
 
 std::string missed_html(const runner::Evaluation &evaluation)

@@ -13,8 +13,9 @@ namespace pelvireg::report
 /// How many claims hold.
 std::string verdict_sentence(const std::vector<runner::ClaimVerdict> &claims);
 
-/// Mean surface error by condition and organ: last step, largest over the steps, against doing nothing.
-std::string error_table_html(const runner::Evaluation &evaluation);
+/// Mean surface error by condition and organ: last step, largest over the steps, against doing nothing; and what the
+/// truth itself does not know.
+std::string error_table_html(const runner::Evaluation &evaluation, const dataset::Truth &truth);
 
 /// One row a claim or aim, with its verdict.
 std::string claims_html(const std::vector<runner::ClaimVerdict> &claims);
@@ -28,5 +29,5 @@ std::string slice_tables_html(const runner::Evaluation &evaluation);
 std::string missed_html(const runner::Evaluation &evaluation);
 
 /// One table a condition.
-std::string worst_places_html(const std::vector<WorstPlace> &places);
+std::string worst_places_html(const runner::Evaluation &evaluation, const std::vector<WorstPlace> &places);
 } // namespace pelvireg::report

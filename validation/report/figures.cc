@@ -3,6 +3,7 @@
 #include "synthetic/dataset/geometry.h"
 #include "validation/metrics/plane_cut.h"
 #include "validation/metrics/statistics.h"
+#include "validation/report/condition_order.h"
 #include "validation/report/html.h"
 #include "validation/report/plane_view.h"
 #include "validation/runner/aggregate.h"
@@ -18,17 +19,6 @@ namespace pelvireg::report
 namespace
 {
 using dataset::organ_names;
-
-/// Left to right as in the paper: with boundary conditions, without, then nothing at all.
-std::vector<std::string> panel_order(const runner::Evaluation &evaluation)
-{
-  std::vector<std::string> order = evaluation.conditions;
-  std::reverse(order.begin(), order.end());
-  const auto full = std::find(order.begin(), order.end(), "full");
-  if (full != order.end())
-    std::rotate(order.begin(), full, full + 1);
-  return order;
-}
 
 /// One scale for all panels. A few outliers (a slice that grazes one end of an organ) must not flatten every curve:
 /// when the largest value is more than three times the 95th percentile, the axis ends at twice that percentile.
@@ -53,12 +43,6 @@ std::vector<NamedPlot> with_common_scale(std::vector<NamedPlot> plots)
   for (NamedPlot &plot : plots)
     plot.plot.y_max = y_max;
   return plots;
-}
-
-/// The conditions of the paper, and doing nothing: what is seen at first.
-bool is_main(const std::string &condition)
-{
-  return condition == "full" || condition == "no_boundary_conditions" || condition == runner::unregistered;
 }
 
 Curve step_curve(const runner::Evaluation &evaluation, const std::string &condition, const std::string &organ)
@@ -176,21 +160,10 @@ std::string overlay_panel(const std::string &title, const Cuts &rest, const Cuts
 }
 } // namespace
 
-std::string condition_title(const std::string &condition)
-{
-  if (condition == "full")
-    return "full: with boundary conditions";
-  if (condition == "no_boundary_conditions")
-    return "without boundary conditions";
-  if (condition == runner::unregistered)
-    return "unregistered: the rest mesh";
-  return condition;
-}
-
 std::vector<NamedPlot> error_by_step_plots(const runner::Evaluation &evaluation)
 {
   std::vector<NamedPlot> plots;
-  for (const std::string &condition : panel_order(evaluation))
+  for (const std::string &condition : reading_order(evaluation))
   {
     LinePlot plot{condition_title(condition), "registration step", "mean surface error (mm)", {}, {}, 1, 5, {}};
     plot.lines.push_back({4, "paper: below 4 mm"});
@@ -206,7 +179,7 @@ std::vector<NamedPlot> error_by_step_plots(const runner::Evaluation &evaluation)
 std::vector<NamedPlot> error_by_slice_plots(const runner::Evaluation &evaluation)
 {
   std::vector<NamedPlot> plots;
-  for (const std::string &condition : panel_order(evaluation))
+  for (const std::string &condition : reading_order(evaluation))
   {
     LinePlot plot{
         condition_title(condition), "slice index (0: DYN plane)", "mean contour error (mm)", {}, {}, 1, 1, {}};
@@ -223,7 +196,7 @@ std::string panels_html(const std::vector<NamedPlot> &plots)
 {
   std::string first, others;
   for (const NamedPlot &plot : plots)
-    (is_main(plot.condition) ? first : others) += "<figure>" + line_plot_svg(plot.plot) + "</figure>\n";
+    (is_main_condition(plot.condition) ? first : others) += "<figure>" + line_plot_svg(plot.plot) + "</figure>\n";
   std::string html = "<div class=\"legend\">" + legend_svg(organ_names) + "</div><div class=\"panels\">\n" +
                      (first.empty() ? others : first) + "</div>\n";
   if (!first.empty() && !others.empty())
@@ -239,7 +212,7 @@ std::string plane_overlay_figure(const ReportInputs &inputs, const std::vector<M
   const Cuts truth = cut_all(truth_surfaces, last, plane);
   std::vector<Cuts> all = {{}, truth};
   std::vector<std::string> names;
-  for (const std::string &name : panel_order(inputs.evaluation))
+  for (const std::string &name : reading_order(inputs.evaluation))
     for (const ConditionSurfaces &condition : conditions)
       if (condition.condition == runner::unregistered && name == condition.condition)
         all[0] = cut_all(condition.organs, 0, plane);
@@ -257,7 +230,7 @@ std::string plane_overlay_figure(const ReportInputs &inputs, const std::vector<M
                                  rest_stroke, truth_stroke, estimate_stroke);
   std::string first, others;
   for (std::size_t i = 0; i < names.size(); ++i)
-    (is_main(names[i]) ? first : others) +=
+    (is_main_condition(names[i]) ? first : others) +=
         "<figure>" + overlay_panel(condition_title(names[i]), all[0], truth, all[i + 2], view, height) + "</figure>\n";
   if (names.empty())
     first = "<figure>" + overlay_panel("not registered", all[0], truth, {}, view, height) + "</figure>\n";

@@ -28,7 +28,4 @@ std::string panels_html(const std::vector<NamedPlot> &plots);
 /// registered condition.
 std::string plane_overlay_figure(const ReportInputs &inputs, const std::vector<MovingSurface> &truth_surfaces,
                                  const std::vector<ConditionSurfaces> &conditions);
-
-/// What a condition is called in headings: "full (all constraints)", …
-std::string condition_title(const std::string &condition);
 } // namespace pelvireg::report

@@ -1,6 +1,7 @@
 #include "validation/report/metric_sections.h"
 
 #include "synthetic/dataset/geometry.h"
+#include "validation/report/condition_order.h"
 #include "validation/report/html.h"
 #include "validation/runner/aggregate.h"
 
@@ -50,29 +51,27 @@ std::string figure_text(const runner::Evaluation &evaluation, const std::string 
 
 std::string metrics_html(const runner::Evaluation &evaluation)
 {
-  std::string html;
-  for (const std::string &condition : evaluation.conditions)
-  {
-    std::vector<std::string> heading = {condition};
-    for (const Column &column : columns)
-      heading.emplace_back(column.heading);
-    std::vector<std::vector<std::string>> rows;
-    for (const std::string &organ : organ_names)
-    {
-      std::vector<std::string> row = {organ};
-      for (const Column &column : columns)
-        row.push_back(figure_text(evaluation, condition, organ, column));
-      rows.push_back(row);
-    }
-    html += table(heading, rows);
-  }
-  return html;
+  return by_condition(evaluation,
+                      [&](const std::string &condition)
+                      {
+                        std::vector<std::string> heading = {condition};
+                        for (const Column &column : columns)
+                          heading.emplace_back(column.heading);
+                        std::vector<std::vector<std::string>> rows;
+                        for (const std::string &organ : organ_names)
+                        {
+                          rows.push_back({organ});
+                          for (const Column &column : columns)
+                            rows.back().push_back(figure_text(evaluation, condition, organ, column));
+                        }
+                        return table(heading, rows);
+                      });
 }
 
 std::string distance_tables_html(const runner::Evaluation &evaluation)
 {
   std::string html;
-  for (const std::string &condition : evaluation.conditions)
+  for (const std::string &condition : reading_order(evaluation))
   {
     std::vector<std::string> heading = {"offset of the slab's middle (mm)"};
     std::map<int, std::vector<std::string>> rows;
@@ -118,7 +117,7 @@ std::string elements_html(const runner::Evaluation &evaluation)
   heading.insert(heading.end(), bodies.begin(), bodies.end());
   heading.emplace_back("inverted elements");
   std::vector<std::vector<std::string>> rows;
-  for (const std::string &condition : evaluation.conditions)
+  for (const std::string &condition : reading_order(evaluation))
     if (worst.contains(condition))
     {
       std::vector<std::string> row = {condition};
@@ -149,7 +148,7 @@ std::string penetrations_html(const runner::Evaluation &evaluation)
       heading.push_back(name);
   }
   std::vector<std::vector<std::string>> rows;
-  for (const std::string &condition : evaluation.conditions)
+  for (const std::string &condition : reading_order(evaluation))
     if (worst.contains(condition))
     {
       std::vector<std::string> row = {condition};

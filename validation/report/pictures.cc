@@ -23,7 +23,7 @@ const std::map<std::string, Colour> organ_colours = {{"bladder", {0.95, 0.80, 0.
                                                      {"rectum", {0.60, 0.40, 0.26}}};
 const Colour floor_colour = {0.62, 0.62, 0.62}, bar_colour = {0.62, 0.76, 0.88}, ghost_colour = {0.45, 0.45, 0.45},
              estimate_colour = {0.1, 0.1, 0.1}, arrow_colour = {0.1, 0.25, 0.6}, cap_colour = {0.85, 0.85, 0.85};
-constexpr double error_scale = 6; ///< mm, the same in every report, so that pictures can be compared
+constexpr double error_scale = 4; ///< mm, the paper's bound: the same in every report, so that pictures can be compared
 
 /// Everything that one picture shows at one instant.
 struct Organ

@@ -86,7 +86,7 @@ std::string space_sections(const Contents &contents)
   html += section("worst", "Worst places",
                   "<p>Of each condition's nominal run, the five worst of the judge's surface samples at the last step "
                   "that are at least 10 mm apart.</p>\n" +
-                      worst_places_html(contents.worst));
+                      worst_places_html(inputs.evaluation, contents.worst));
   return html;
 }
 
@@ -132,8 +132,9 @@ std::string report_html(const ReportInputs &inputs)
   html += "<h1>" + escape(title) + "</h1>\n";
   if (evaluation.is_inverse_crime)
     html += "<p class=\"lead\"><b>" + escape(runner::inverse_crime_notice(evaluation)) + "</b></p>\n";
-  html += page_links() + verdict_sentence(runner::assess_claims(evaluation, inputs.timings)) + error_table_html(evaluation);
-  html += "<p>The paper's bound for every organ and step: below 4 mm. ± is the standard deviation between runs.</p>\n";
+  html += page_links() + verdict_sentence(runner::assess_claims(evaluation, inputs.timings)) + "<div class=\"first\">\n<div>" + error_table_html(evaluation, inputs.truth) +
+          "<p>The paper's bound for every organ and step: below 4 mm. ± is the standard deviation between runs.</p></div>\n" +
+          facts_html(evaluation) + "</div>\n";
   html += error_sections(contents) + space_sections(contents) + further_sections(contents) + footer(inputs);
   html += "</main>\n<script type=\"application/octet-stream\" id=\"data\">" +
           report_data(inputs, contents.truth, contents.conditions, contents.slices, contents.worst) + "</script>\n";

@@ -1,6 +1,6 @@
 #include "validation/report/report_data.h"
 
-#include "validation/report/figures.h"
+#include "validation/report/condition_order.h"
 #include "validation/report/payload.h"
 #include "validation/report/view_data.h"
 #include "validation/runner/aggregate.h"
@@ -25,7 +25,7 @@ json numbers(const Eigen::Vector3d &v)
 json conditions_json(const ReportInputs &inputs, const std::vector<ConditionSurfaces> &conditions)
 {
   json list = json::array();
-  for (const std::string &name : inputs.evaluation.conditions)
+  for (const std::string &name : reading_order(inputs.evaluation))
   {
     json nominal = nullptr; // place in the list of those with a nominal run
     for (std::size_t i = 0; i < conditions.size(); ++i)
@@ -44,13 +44,14 @@ json metrics_json(const runner::Evaluation &evaluation)
     for (const std::string &organ : organ_names)
       for (const runner::MetricFigure &figure : runner::metric_figures())
       {
-        json mean = json::array(), sd = json::array();
+        json mean = json::array(), sd = json::array(), n_runs = json::array();
         for (const runner::Aggregate &value : runner::metric_by_position(evaluation, condition, organ, figure))
         {
           mean.push_back(value.mean);
           sd.push_back(value.sd);
+          n_runs.push_back(value.n_runs);
         }
-        result[condition][organ][figure.name] = {{"mean", mean}, {"sd", sd}};
+        result[condition][organ][figure.name] = {{"mean", mean}, {"sd", sd}, {"n_runs", n_runs}};
       }
   return result;
 }

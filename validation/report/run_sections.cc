@@ -1,13 +1,41 @@
 #include "validation/report/run_sections.h"
 
+#include "validation/report/condition_order.h"
 #include "validation/report/html.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace pelvireg::report
 {
+std::string facts_html(const runner::Evaluation &evaluation)
+{
+  std::map<std::string, std::pair<int, int>> runs; // randomised runs and failed steps of each condition
+  int n_failed = 0, n_steps = 0;
+  for (const runner::RunQuality &run : evaluation.quality)
+  {
+    runs[run.condition].first += run.sample > 0 ? 1 : 0;
+    n_failed += run.n_failed_steps;
+    n_steps += run.n_steps;
+  }
+  std::string list;
+  for (const std::string &condition : reading_order(evaluation))
+    if (runs.contains(condition))
+      list += fmt::format("{}{} (1 + {})", list.empty() ? "" : ", ", escape(condition), runs[condition].first);
+  const auto fact = [](const std::string &name, const std::string &value)
+  { return "<dt>" + name + "</dt><dd>" + value + "</dd>\n"; };
+  return "<dl class=\"facts\">\n" + fact("Case", escape(evaluation.case_name)) +
+         fact("Truth", escape(evaluation.truth_source)) +
+         fact("Motion", fmt::format("{} increments; the vagina moves {:.2f} mm in the image plane on average",
+                                    evaluation.n_increments, evaluation.vaginal_displacement)) +
+         fact("Registration", fmt::format("{} steps, {} nodes", evaluation.n_steps(), evaluation.n_registration_nodes)) +
+         fact("Conditions (nominal + randomised runs)", list.empty() ? "none" : list) +
+         fact("Failed steps", fmt::format("{} of {}", n_failed, n_steps)) + "</dl>\n";
+}
+
 std::string motion_html(const runner::Evaluation &evaluation)
 {
   std::vector<std::vector<std::string>> rows;
@@ -26,7 +54,7 @@ std::string motion_html(const runner::Evaluation &evaluation)
 std::string quality_html(const runner::Evaluation &evaluation, const std::vector<runner::StepTiming> &timings)
 {
   std::vector<std::vector<std::string>> rows;
-  for (const std::string &condition : evaluation.conditions)
+  for (const std::string &condition : reading_order(evaluation))
   {
     runner::RunQuality worst;
     worst.least_acceptance = 1;

@@ -8,6 +8,9 @@
 
 namespace pelvireg::report
 {
+/// What was run, in a few lines.
+std::string facts_html(const runner::Evaluation &evaluation);
+
 /// How the truth moved each organ.
 std::string motion_html(const runner::Evaluation &evaluation);
 

@@ -141,7 +141,15 @@ std::string panel(const SliceDrawing &drawing, const SliceContours &slice, std::
                       condition < slice.estimates.size() ? slice.estimates[condition] : "");
   for (const SliceLabel &label : slice.labels)
     html += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", label.x, label.y, escape(label.organ));
-  return html + fmt::format("</svg><figcaption><b>{:+d}</b> {}</figcaption></figure>\n", slice.index, side);
+  if (slice.labels.empty())
+    html += fmt::format("<text class=\"none\" x=\"{:.1f}\" y=\"{:.1f}\">no organ</text>",
+                        drawing.left + drawing.width / 2, drawing.top + drawing.height / 2);
+  html += fmt::format("<path class=\"length\" d=\"M{:.1f} {:.1f}h20\"/><text class=\"length\" x=\"{:.1f}\" "
+                      "y=\"{:.1f}\">20 mm</text>",
+                      drawing.left + 4, drawing.top + drawing.height - 4, drawing.left + 31,
+                      drawing.top + drawing.height - 4);
+  return html + fmt::format("</svg><figcaption><b>{}{}</b> {}</figcaption></figure>\n", slice.index > 0 ? "+" : "",
+                            slice.index, side);
 }
 } // namespace
 

@@ -13,16 +13,19 @@ const element = (name, properties = {}, ...children) => {
   return node;
 };
 
-/** {condition: {organ: {mean: [], sd: []}}} over the abscissae; null where the file has no row. */
+const emptyCurve = (abscissae) => ({ mean: abscissae.map(() => null), sd: abscissae.map(() => null), n_runs: abscissae.map(() => 0) });
+
+/** {condition: {organ: {mean: [], sd: [], n_runs: []}}} over the abscissae; null where the file has no row. */
 function curvesOf(rows, key, abscissae) {
   const place = new Map(abscissae.map((x, i) => [String(x), i]));
   const curves = {};
   for (const row of rows) {
     const organs = (curves[row.condition] ??= {});
-    const curve = (organs[row.organ] ??= { mean: abscissae.map(() => null), sd: abscissae.map(() => null) });
+    const curve = (organs[row.organ] ??= emptyCurve(abscissae));
     const i = place.get(row[key]);
     curve.mean[i] = Number(row.mean_mm);
     curve.sd[i] = Number(row.sd_mm);
+    curve.n_runs[i] = Number(row.n_runs);
   }
   return curves;
 }
@@ -32,11 +35,12 @@ function distanceCurves(summary, figure, abscissae, pitch) {
   for (const [condition, organs] of Object.entries(summary.errors_by_distance)) {
     curves[condition] = {};
     for (const [organ, slabs] of Object.entries(organs)) {
-      const curve = { mean: abscissae.map(() => null), sd: abscissae.map(() => null) };
+      const curve = emptyCurve(abscissae);
       for (const slab of slabs) {
         const i = abscissae.indexOf(Math.round((slab.offset_from_mm + slab.offset_to_mm) / 2 / pitch) * pitch);
         curve.mean[i] = slab[figure].mean_mm;
         curve.sd[i] = slab[figure].sd_mm;
+        curve.n_runs[i] = slab[figure].n_runs;
       }
       curves[condition][organ] = curve;
     }
@@ -46,6 +50,7 @@ function distanceCurves(summary, figure, abscissae, pitch) {
 
 const range = (first, last, step = 1) => Array.from({ length: Math.floor((last - first) / step) + 1 }, (_, i) => first + i * step);
 
+// Names of metrics_by_step.csv and summary.json, for people.
 const metricNames = {
   material_mean_mm: 'material-point error, mean (mm)', material_p95_mm: 'material-point error, 95th percentile (mm)',
   material_max_mm: 'material-point error, largest (mm)', normal_mean_mm: 'its part along the normal (mm)',
@@ -226,7 +231,7 @@ class Chart {
   columns(condition) {
     const columns = [this.description.x];
     for (const organ of this.organs) {
-      const curve = this.curves(condition)[organ] ?? { mean: [], sd: [] };
+      const curve = this.curves(condition)[organ] ?? { mean: [], sd: [], n_runs: [] };
       columns.push(curve.mean, curve.mean.map((mean, i) => (mean === null ? null : mean + curve.sd[i])),
         curve.mean.map((mean, i) => (mean === null ? null : mean - curve.sd[i])));
     }
@@ -246,7 +251,7 @@ class Chart {
     return {
       ...this.size(host), series, bands, legend: { show: false },
       scales: { x: { time: false, range: this.xRange() }, y: { range: () => yRange } },
-      axes: [{ ...axis, label: this.description.xLabel }, { ...axis, label: this.choice, size: 52 }],
+      axes: [{ ...axis, label: this.description.xLabel, size: 34 }, { ...axis, label: this.choice, size: 52 }],
       cursor: { y: false, drag: { x: false, y: false }, points: { size: 7 } },
       hooks: { draw: [(plot) => this.drawBound(plot)], setCursor: [(plot) => this.moved(plot)] },
     };
@@ -278,7 +283,7 @@ class Chart {
   }
 
   size(host) {
-    return { width: Math.max(200, Math.floor(host.clientWidth)), height: 260 };
+    return { width: Math.max(200, Math.floor(host.clientWidth)), height: 270 };
   }
 
   resize() {
@@ -318,15 +323,21 @@ class Chart {
 
   readOut() {
     for (const { condition, table } of this.plots) {
-      const caption = element('caption', { textContent: this.description.at(this.description.x[this.index]) });
+      const caption = element('caption', { textContent: `${this.description.at(this.description.x[this.index])}, ${this.runs(condition)}` });
       const rows = this.organs.map((organ, o) => this.row(condition, organ, o));
       table.replaceChildren(caption, element('tbody', {}, ...rows));
     }
   }
 
+  runs(condition) {
+    const n = Math.max(0, ...this.organs.map((organ) => this.curves(condition)[organ]?.n_runs[this.index] ?? 0));
+    return n > 1 ? `${n} runs: mean ± standard deviation` : n === 1 ? 'one run' : 'no run';
+  }
+
   row(condition, organ, o) {
     const curve = this.curves(condition)[organ];
     const mean = curve?.mean[this.index] ?? null, sd = curve?.sd[this.index] ?? null;
+    const nRuns = curve?.n_runs[this.index] ?? 0;
     const swatch = element('span', { className: 'swatch' });
     swatch.style.background = colours[o % colours.length];
     const button = element('button', { type: 'button', className: 'organ' }, swatch, organ);
@@ -334,7 +345,7 @@ class Chart {
     button.addEventListener('click', () => this.toggle(organ));
     return element('tr', {}, element('th', { scope: 'row' }, button),
       element('td', { textContent: written(mean), title: mean === null ? '' : String(mean) }),
-      element('td', { textContent: mean === null ? '' : `± ${written(sd)}`, title: sd === null ? '' : String(sd) }));
+      element('td', { textContent: nRuns > 1 ? `± ${written(sd)}` : '', title: nRuns > 1 ? String(sd) : '' }));
   }
 }
 

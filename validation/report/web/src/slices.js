@@ -45,9 +45,9 @@ export function makeSlices(data) {
       const row = rows.find((other) => other.condition === condition && other.organ === organ && Number(other.slice_index) === k);
       return element('tr', {}, element('th', { scope: 'row', textContent: organ }),
         element('td', { textContent: row ? written(Number(row.mean_mm)) : '–' }),
-        element('td', { textContent: row ? `± ${written(Number(row.sd_mm))}` : '' }));
+        element('td', { textContent: row && Number(row.n_runs) > 1 ? `± ${written(Number(row.sd_mm))}` : '' }));
     });
-    values.replaceChildren(element('caption', { textContent: 'mean contour error, all runs (mm)' }), element('tbody', {}, ...cells));
+    values.replaceChildren(element('caption', { textContent: 'mean contour error over the runs (mm)' }), element('tbody', {}, ...cells));
   }
   slider.addEventListener('input', show);
   select.addEventListener('change', show);

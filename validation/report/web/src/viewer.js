@@ -116,7 +116,7 @@ class Viewer {
       this.choice('Show', [['truth', 'truth'], ['estimate', 'estimate'], ['both', 'truth, estimate as wires']], 'shown'),
       this.choice('Condition', this.conditions.map(({ name }) => [name, name]), 'condition'),
       this.choice('Colour', [['false', 'error'], ['true', 'organ']], 'byOrgan', (value) => value === 'true'),
-      this.choice('Scale', [['1', '0 to 1 mm'], ['2', '0 to 2 mm'], ['4', "0 to 4 mm, the paper's bound"], ['10', '0 to 10 mm']], 'scale', Number),
+      this.choice('Scale', [['1', '0 to 1 mm'], ['2', '0 to 2 mm'], ['4', '0 to 4 mm (paper)'], ['10', '0 to 10 mm']], 'scale', Number),
     ];
   }
 
@@ -139,7 +139,7 @@ class Viewer {
   }
 
   thingBoxes() {
-    const things = [['plane', 'image plane'], ['controlPoints', 'outline points that drive the registration'],
+    const things = [['plane', 'image plane'], ['controlPoints', 'outline points (control points)'],
       ['attachments', "the registration's attachments"], ['bars', "the truth's ligaments and fasciae"]];
     return this.boxes('Around them', [
       ...things.filter(([key]) => this.surroundings.has(key)).map(([key, text]) => [text, this.state[key], (on) => this.set({ [key]: on })]),
@@ -216,7 +216,7 @@ class Viewer {
     const points = this.surroundings.plane.children[1].geometry;
     points.computeBoundingSphere();
     const { center, radius } = points.boundingSphere;
-    const distance = (1.08 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
+    const distance = (0.9 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
     this.controls.target.copy(center);
     this.camera.position.copy(center).addScaledVector(new Vector3(...directions[name]).normalize(), distance);
     this.controls.update();
