@@ -22,14 +22,6 @@ std::string millimetres(const runner::Aggregate &value)
   return value.n_runs > 1 ? fmt::format("{:.2f} ± {:.3f}", value.mean, value.sd) : fmt::format("{:.2f}", value.mean);
 }
 
-std::string verdict_mark(const std::string &verdict)
-{
-  const bool holds = verdict == "confirmed" || verdict == "met", fails = verdict == "refuted" || verdict == "missed";
-  const std::string sign = holds ? "✓" : fails ? "✗" : "–";
-  const std::string style = holds ? "yes" : fails ? "no" : "open";
-  return fmt::format("<span class=\"verdict {}\">{} {}</span>", style, sign, escape(verdict));
-}
-
 /// A heading and one column an organ; "–" where there is no value.
 std::vector<std::string> row_of(const std::string &heading, const std::vector<std::optional<runner::Aggregate>> &values)
 {
@@ -49,6 +41,14 @@ std::vector<std::string> organ_heading(const std::string &first)
 }
 } // namespace
 
+std::string verdict_mark(const std::string &verdict)
+{
+  const bool holds = verdict == "confirmed" || verdict == "met", fails = verdict == "refuted" || verdict == "missed";
+  const std::string sign = holds ? "✓" : fails ? "✗" : "–";
+  const std::string style = holds ? "yes" : fails ? "no" : "open";
+  return fmt::format("<span class=\"verdict {}\">{} {}</span>", style, sign, escape(verdict));
+}
+
 std::string verdict_sentence(const std::vector<runner::ClaimVerdict> &claims)
 {
   const auto count = [&](const std::string &verdict)
@@ -56,8 +56,9 @@ std::string verdict_sentence(const std::vector<runner::ClaimVerdict> &claims)
     return std::count_if(claims.begin(), claims.end(),
                          [&](const runner::ClaimVerdict &claim) { return claim.verdict == verdict; });
   };
-  return fmt::format("<p class=\"lead\">Of the paper's {} claims, on this case: <b>{} confirmed, {} refuted, {} not "
-                     "assessed</b>.</p>\n",
+  return fmt::format("<p class=\"lead\">Of the paper's {} claims, on this case: <span class=\"verdict yes\">{} "
+                     "confirmed</span> <span class=\"verdict no\">{} refuted</span> <span class=\"verdict open\">{} not "
+                     "assessed</span></p>\n",
                      claims.size(), count("confirmed"), count("refuted"), count("not assessed"));
 }
 

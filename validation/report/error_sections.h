@@ -10,6 +10,9 @@
 
 namespace pelvireg::report
 {
+/// "confirmed", "met", … with a sign and a colour.
+std::string verdict_mark(const std::string &verdict);
+
 /// How many claims hold.
 std::string verdict_sentence(const std::vector<runner::ClaimVerdict> &claims);
 

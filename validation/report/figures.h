@@ -1,8 +1,8 @@
-// The figures of the report.
+// The error curves of the report.
 #pragma once
 
 #include "validation/report/line_plot.h"
-#include "validation/report/nominal_surfaces.h"
+#include "validation/runner/evaluate.h"
 
 #include <string>
 #include <vector>
@@ -23,9 +23,4 @@ std::vector<NamedPlot> error_by_slice_plots(const runner::Evaluation &evaluation
 
 /// A row of panels with their key. Ablations are closed behind the paper's conditions.
 std::string panels_html(const std::vector<NamedPlot> &plots);
-
-/// Contours of rest, truth and estimate in the DYN plane at the last step, from the judge's own slicer; one panel a
-/// registered condition.
-std::string plane_overlay_figure(const ReportInputs &inputs, const std::vector<MovingSurface> &truth_surfaces,
-                                 const std::vector<ConditionSurfaces> &conditions);
 } // namespace pelvireg::report

@@ -4,6 +4,7 @@
 #include "validation/report/figures.h"
 #include "validation/report/html.h"
 #include "validation/report/metric_sections.h"
+#include "validation/report/plane_overlays.h"
 #include "validation/report/report_data.h"
 #include "validation/report/report_text.h"
 #include "validation/report/run_sections.h"
@@ -82,7 +83,7 @@ std::string space_sections(const Contents &contents)
                   "<div id=\"slice-view\"></div>\n" +
                       slices_figure(contents.slices, shown, name, inputs.evaluation.slice_pitch) +
                       "<h3>In the image plane, by condition</h3>\n" +
-                      plane_overlay_figure(inputs, contents.truth, contents.conditions));
+                      plane_overlay_figure(plane_overlays(inputs, contents.truth, contents.conditions)));
   html += section("worst", "Worst places",
                   "<p>Of each condition's nominal run, the five worst of the judge's surface samples at the last step "
                   "that are at least 10 mm apart.</p>\n" +

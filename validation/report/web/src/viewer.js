@@ -294,7 +294,7 @@ class Viewer {
 
   resize() {
     const { clientWidth: width } = this.renderer.domElement.parentElement;
-    const height = Math.round(Math.min(0.75 * width, 0.8 * innerHeight));
+    const height = Math.round(Math.min((width < 500 ? 0.95 : 0.75) * width, 0.8 * innerHeight));
     if (width === 0) return;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height);

@@ -1,0 +1,98 @@
+#include "validation/report/summary_page.h"
+
+#include "validation/report/condition_order.h"
+#include "validation/report/error_sections.h"
+#include "validation/report/figures.h"
+#include "validation/report/html.h"
+#include "validation/report/plane_overlays.h"
+#include "validation/report/report_text.h"
+#include "validation/report/run_sections.h"
+
+#include <fmt/format.h>
+
+namespace pelvireg::report
+{
+namespace
+{
+/// Sizes that put everything on one page: the page itself is the box that must hold it.
+const char *const style = R"(<style>
+@page { size: A4; margin: 0; }
+body { font-size: 8.6pt; line-height: 1.32; }
+main { width: 210mm; height: 296.5mm; max-width: none; margin: 0; padding: 10mm 12mm 8mm; display: flex; flex-direction: column;
+  gap: 2mm; overflow: hidden; }
+h1 { font-size: 14pt; margin: 0; }
+h2 { font-size: 9.6pt; margin: 0 0 .5mm; }
+p { margin: 0; max-width: none; }
+.lead { font-size: 10.5pt; }
+table, .facts { font-size: 8pt; }
+th, td { padding: .45mm 1.6mm; }
+.claims td, .claims th { min-width: 0 !important; }
+.scroll, .panels, .facts { margin: 0; overflow: visible; }
+.facts { padding: 2mm 3mm; }
+.facts dt { font-size: 7pt; margin-top: .6mm; }
+.panels { display: grid; grid-template-columns: repeat(3, 1fr); gap: 0 3mm; }
+.legend svg { max-width: 75mm; }
+.first { grid-template-columns: auto 1fr; gap: 0 5mm; }
+details { display: none; }
+.low { display: grid; grid-template-columns: 58mm 1fr; gap: 0 5mm; font-size: 7.4pt; color: #39414a; }
+.low p { margin-bottom: 1mm; overflow-wrap: anywhere; }
+</style>
+)";
+
+std::string short_claims(const std::vector<runner::ClaimVerdict> &claims)
+{
+  std::string html = "<table class=\"claims\"><tbody>\n";
+  for (const runner::ClaimVerdict &claim : claims)
+    html += fmt::format("<tr><td>{}</td><td>{} <b>Paper:</b> {}. <b>Here:</b> {}.</td></tr>\n", verdict_mark(claim.verdict),
+                        escape(claim.claim), escape(claim.paper), escape(claim.ours));
+  return html + "</tbody></table>\n";
+}
+
+/// The panels of the paper's conditions; of others when none of those was run.
+std::string row_of_panels(const std::vector<NamedPlot> &plots)
+{
+  std::string html;
+  for (const NamedPlot &plot : plots)
+    if (is_main_condition(plot.condition))
+      html += "<figure>" + line_plot_svg(plot.plot) + "</figure>";
+  return "<div class=\"panels\">" + html + "</div>\n";
+}
+
+std::string low_row(const ReportInputs &inputs)
+{
+  const auto overlays = plane_overlays(inputs, truth_surfaces(inputs.truth), nominal_surfaces(inputs));
+  std::string html = "<div class=\"low\"><figure>" + overlay_key_svg() + overlays.front().svg + "</figure><div>";
+  if (inputs.truth.discretisation_error)
+    html += fmt::format("<p><b>The truth itself</b>: mean error bar of its mesh at most {:.2f} mm, largest {:.2f} mm.</p>",
+                        inputs.truth.discretisation_error->mean.maxCoeff(),
+                        inputs.truth.discretisation_error->max.maxCoeff());
+  html += "<p><b>Surface error</b>: distance from fixed material points of the truth's outer surface to the closest triangle "
+          "of the registered surface. <b>Slices</b> are parallel to the image plane (index 0), contours in the same plane. "
+          "Bands: standard deviation between runs.</p>";
+  html += "<p><b>What this is not</b>: a comparison with a synthetic reference is verification, not clinical validation.</p>";
+  for (const std::string &command : inputs.commands)
+    html += "<p><b>Again</b>: " + escape(command) + "</p>";
+  if (!inputs.provenance.empty())
+    html += "<p>" + escape(inputs.provenance.front().value) + "</p>";
+  return html + "</div></div>\n";
+}
+} // namespace
+
+std::string summary_page_html(const ReportInputs &inputs)
+{
+  const runner::Evaluation &evaluation = inputs.evaluation;
+  const auto claims = runner::assess_claims(evaluation, inputs.timings);
+  const std::string title = "Registration from one image plane: case " + evaluation.case_name;
+  std::string html = page_head(title);
+  html.insert(html.find("</head>"), style);
+  html += "<h1>" + escape(title) + "</h1>\n";
+  if (evaluation.is_inverse_crime)
+    html += "<p><b>" + escape(runner::inverse_crime_notice(evaluation)) + "</b></p>\n";
+  html += verdict_sentence(claims) + "<div class=\"first\">" + error_table_html(evaluation, inputs.truth) +
+          facts_html(evaluation) + "</div>\n" + short_claims(claims);
+  html += "<div><h2>Mean surface error by step, mean contour error by slice at the last step</h2><div class=\"legend\">" +
+          legend_svg(dataset::organ_names) + "</div>" +
+          row_of_panels(error_by_step_plots(evaluation)) + row_of_panels(error_by_slice_plots(evaluation)) + "</div>\n";
+  return html + low_row(inputs) + "</main></body></html>\n";
+}
+} // namespace pelvireg::report
