@@ -137,8 +137,7 @@ std::string aims_html(const std::vector<runner::Aim> &aims)
 
 std::string step_tables_html(const runner::Evaluation &evaluation)
 {
-  std::string html;
-  for (const std::string &condition : reading_order(evaluation))
+  const auto of_condition = [&](const std::string &condition)
   {
     std::vector<std::vector<runner::Aggregate>> curves;
     for (const std::string &organ : organ_names)
@@ -151,15 +150,14 @@ std::string step_tables_html(const runner::Evaluation &evaluation)
         values.emplace_back(curve[step]);
       rows.push_back(row_of(std::to_string(step + 1), values));
     }
-    html += details("Values, " + condition, table(organ_heading("step (mm)"), rows));
-  }
-  return html;
+    return details("Values, " + condition, table(organ_heading("step (mm)"), rows));
+  };
+  return by_condition(evaluation, of_condition);
 }
 
 std::string slice_tables_html(const runner::Evaluation &evaluation)
 {
-  std::string html;
-  for (const std::string &condition : reading_order(evaluation))
+  const auto of_condition = [&](const std::string &condition)
   {
     std::vector<std::vector<std::optional<runner::Aggregate>>> curves;
     for (const std::string &organ : organ_names)
@@ -172,9 +170,9 @@ std::string slice_tables_html(const runner::Evaluation &evaluation)
         values.push_back(curve[i]);
       rows.push_back(row_of(fmt::format("{:+d}", static_cast<int>(i) - evaluation.n_slices_each_side), values));
     }
-    html += details("Values, " + condition, table(organ_heading("slice (mm)"), rows));
-  }
-  return html;
+    return details("Values, " + condition, table(organ_heading("slice (mm)"), rows));
+  };
+  return by_condition(evaluation, of_condition);
 }
 
 std::string worst_places_html(const runner::Evaluation &evaluation, const std::vector<WorstPlace> &places)

@@ -70,8 +70,7 @@ std::string metrics_html(const runner::Evaluation &evaluation)
 
 std::string distance_tables_html(const runner::Evaluation &evaluation)
 {
-  std::string html;
-  for (const std::string &condition : reading_order(evaluation))
+  const auto of_condition = [&](const std::string &condition)
   {
     std::vector<std::string> heading = {"offset of the slab's middle (mm)"};
     std::map<int, std::vector<std::string>> rows;
@@ -89,9 +88,9 @@ std::string distance_tables_html(const runner::Evaluation &evaluation)
     std::vector<std::vector<std::string>> list;
     for (const auto &[bin, row] : rows)
       list.push_back(row);
-    html += details("Values, " + condition + ": surface / material point (mm)", table(heading, list));
-  }
-  return html;
+    return details("Values, " + condition + ": surface / material point (mm)", table(heading, list));
+  };
+  return by_condition(evaluation, of_condition);
 }
 
 std::string elements_html(const runner::Evaluation &evaluation)

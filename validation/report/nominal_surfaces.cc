@@ -23,6 +23,14 @@ ConditionSurfaces unmoved(const dataset::Anatomy &anatomy)
   return surfaces;
 }
 
+/// The nominal run is the same whatever the randomised ones were given: one estimate of a condition shows it.
+bool shows_nominal_run(const dataset::Estimate &estimate, const std::vector<dataset::Estimate> &estimates)
+{
+  return std::none_of(estimates.begin(), estimates.end(),
+                      [&](const dataset::Estimate &other)
+                      { return other.condition == estimate.condition && other.label() < estimate.label(); });
+}
+
 ConditionSurfaces moved(const std::string &label, const dataset::EstimateSample &run)
 {
   ConditionSurfaces surfaces{label, {}};
@@ -59,7 +67,7 @@ std::vector<ConditionSurfaces> nominal_surfaces(const ReportInputs &inputs)
       conditions.push_back(unmoved(inputs.anatomy));
     for (const dataset::Estimate &estimate : inputs.estimates)
       for (const dataset::EstimateSample &run : estimate.samples)
-        if (estimate.label() == condition && run.sample == 0)
+        if (estimate.label() == condition && run.sample == 0 && shows_nominal_run(estimate, inputs.estimates))
           conditions.push_back(moved(condition, run));
   }
   return conditions;

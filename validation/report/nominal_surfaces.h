@@ -30,7 +30,8 @@ struct ConditionSurfaces
 /// Frames: rest, then one an increment.
 std::vector<MovingSurface> truth_surfaces(const dataset::Truth &truth);
 
-/// Conditions in the evaluation's order. Frames: rest, then one a step; of `unregistered` the rest alone. A condition
-/// without a nominal run is left out.
+/// Conditions in the evaluation's order. Frames: rest, then one a step; of `unregistered` the rest alone. Left out
+/// are a condition without a nominal run and, of several perturbations of one condition, all but the first by name: their
+/// nominal runs are the same.
 std::vector<ConditionSurfaces> nominal_surfaces(const ReportInputs &inputs);
 } // namespace pelvireg::report

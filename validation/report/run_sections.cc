@@ -11,29 +11,45 @@
 
 namespace pelvireg::report
 {
+namespace
+{
+/// "full, no_contact; each one nominal and 20 randomised runs", or with the number of each.
+std::string runs_text(const runner::Evaluation &evaluation)
+{
+  std::map<std::string, int> randomised;
+  for (const runner::RunQuality &run : evaluation.quality)
+    randomised[run.condition] += run.sample > 0 ? 1 : 0;
+  if (randomised.empty())
+    return "none";
+  const int first = randomised.begin()->second;
+  const bool alike = std::all_of(randomised.begin(), randomised.end(),
+                                 [&](const auto &condition) { return condition.second == first; });
+  std::string text;
+  for (const std::string &condition : reading_order(evaluation))
+    if (randomised.contains(condition))
+      text += (text.empty() ? "" : ", ") + condition +
+              (alike ? "" : fmt::format(" (1 + {} runs)", randomised[condition]));
+  return alike ? fmt::format("{}; {} one nominal and {} randomised runs", text, randomised.size() > 1 ? "each" : "in", first)
+               : text;
+}
+} // namespace
+
 std::string facts_html(const runner::Evaluation &evaluation)
 {
-  std::map<std::string, std::pair<int, int>> runs; // randomised runs and failed steps of each condition
   int n_failed = 0, n_steps = 0;
   for (const runner::RunQuality &run : evaluation.quality)
   {
-    runs[run.condition].first += run.sample > 0 ? 1 : 0;
     n_failed += run.n_failed_steps;
     n_steps += run.n_steps;
   }
-  std::string list;
-  for (const std::string &condition : reading_order(evaluation))
-    if (runs.contains(condition))
-      list += fmt::format("{}{} (1 + {})", list.empty() ? "" : ", ", escape(condition), runs[condition].first);
   const auto fact = [](const std::string &name, const std::string &value)
-  { return "<dt>" + name + "</dt><dd>" + value + "</dd>\n"; };
-  return "<dl class=\"facts\">\n" + fact("Case", escape(evaluation.case_name)) +
-         fact("Truth", escape(evaluation.truth_source)) +
+  { return "<div><dt>" + name + "</dt><dd>" + escape(value) + "</dd></div>\n"; };
+  return "<dl class=\"facts\">\n" + fact("Case", evaluation.case_name) + fact("Truth", evaluation.truth_source) +
          fact("Motion", fmt::format("{} increments; the vagina moves {:.2f} mm in the image plane on average",
                                     evaluation.n_increments, evaluation.vaginal_displacement)) +
-         fact("Registration", fmt::format("{} steps, {} nodes", evaluation.n_steps(), evaluation.n_registration_nodes)) +
-         fact("Conditions (nominal + randomised runs)", list.empty() ? "none" : list) +
-         fact("Failed steps", fmt::format("{} of {}", n_failed, n_steps)) + "</dl>\n";
+         fact("Registration", fmt::format("{} steps, {} nodes, {} of {} steps failed", evaluation.n_steps(),
+                                          evaluation.n_registration_nodes, n_failed, n_steps)) +
+         fact("Conditions", runs_text(evaluation)) + "</dl>\n";
 }
 
 std::string motion_html(const runner::Evaluation &evaluation)

@@ -14,28 +14,31 @@ namespace pelvireg::report
 {
 namespace
 {
-/// Sizes that put everything on one page: the page itself is the box that must hold it.
+/// Sizes that put everything on one page.
 const char *const style = R"(<style>
 @page { size: A4; margin: 0; }
 body { font-size: 8.6pt; line-height: 1.32; }
-main { width: 210mm; height: 296.5mm; max-width: none; margin: 0; padding: 10mm 12mm 8mm; display: flex; flex-direction: column;
-  gap: 2mm; overflow: hidden; }
+main { width: 210mm; max-width: none; margin: 0; padding: 8mm 12mm 5mm; display: flex; flex-direction: column; gap: 1.8mm; }
 h1 { font-size: 14pt; margin: 0; }
 h2 { font-size: 9.6pt; margin: 0 0 .5mm; }
 p { margin: 0; max-width: none; }
 .lead { font-size: 10.5pt; }
-table, .facts { font-size: 8pt; }
-th, td { padding: .45mm 1.6mm; }
-.claims td, .claims th { min-width: 0 !important; }
+table, .facts { font-size: 7.4pt; }
+td, tbody th { white-space: nowrap; }
+.claims td { white-space: normal !important; }
+th, td { padding: .35mm 1.6mm; }
+.claims td, .claims th { min-width: 0 !important; font-size: 6.8pt; line-height: 1.25; }
 .scroll, .panels, .facts { margin: 0; overflow: visible; }
-.facts { padding: 2mm 3mm; }
-.facts dt { font-size: 7pt; margin-top: .6mm; }
-.panels { display: grid; grid-template-columns: repeat(3, 1fr); gap: 0 3mm; }
+.facts { max-width: none; padding: 1.5mm 3mm; display: grid; grid-template-columns: 10mm 24mm 40mm 30mm 1fr; gap: 0 3mm; }
+.facts dt { font-size: 7pt; }
+.facts div + div { margin: 0; }
+.panels { display: grid; grid-template-columns: repeat(3, 53mm); gap: 0 10mm; justify-content: center; }
 .legend svg { max-width: 75mm; }
-.first { grid-template-columns: auto 1fr; gap: 0 5mm; }
+.scroll table { width: 100%; }
 details { display: none; }
-.low { display: grid; grid-template-columns: 58mm 1fr; gap: 0 5mm; font-size: 7.4pt; color: #39414a; }
-.low p { margin-bottom: 1mm; overflow-wrap: anywhere; }
+.pair { display: grid; grid-template-columns: 1fr 46mm; gap: 0 5mm; align-items: start; }
+.low { font-size: 6.8pt; color: #39414a; }
+.low p { margin-bottom: .8mm; overflow-wrap: anywhere; }
 </style>
 )";
 
@@ -58,23 +61,30 @@ std::string row_of_panels(const std::vector<NamedPlot> &plots)
   return "<div class=\"panels\">" + html + "</div>\n";
 }
 
-std::string low_row(const ReportInputs &inputs)
+/// The first condition's contours.
+std::string image_plane(const ReportInputs &inputs)
 {
   const auto overlays = plane_overlays(inputs, truth_surfaces(inputs.truth), nominal_surfaces(inputs));
-  std::string html = "<div class=\"low\"><figure>" + overlay_key_svg() + overlays.front().svg + "</figure><div>";
+  return "<figure>" + overlay_key_svg() + overlays.front().svg + "</figure>\n";
+}
+
+std::string notes(const ReportInputs &inputs)
+{
+  std::string html = "<div class=\"low\">";
   if (inputs.truth.discretisation_error)
-    html += fmt::format("<p><b>The truth itself</b>: mean error bar of its mesh at most {:.2f} mm, largest {:.2f} mm.</p>",
+    html += fmt::format("<p><b>The truth itself</b>: error bar of its mesh, displacement, over all increments: mean at most "
+                        "{:.2f} mm, largest {:.2f} mm.</p>",
                         inputs.truth.discretisation_error->mean.maxCoeff(),
                         inputs.truth.discretisation_error->max.maxCoeff());
   html += "<p><b>Surface error</b>: distance from fixed material points of the truth's outer surface to the closest triangle "
           "of the registered surface. <b>Slices</b> are parallel to the image plane (index 0), contours in the same plane. "
-          "Bands: standard deviation between runs.</p>";
-  html += "<p><b>What this is not</b>: a comparison with a synthetic reference is verification, not clinical validation.</p>";
+          "Bands and ±: standard deviation between runs.</p>"
+          "<p><b>What this is not</b>: a comparison with a synthetic reference is verification, not clinical validation.</p>";
   for (const std::string &command : inputs.commands)
-    html += "<p><b>Again</b>: " + escape(command) + "</p>";
+    html += "<p><b>Made by</b>: " + escape(command) + "</p>";
   if (!inputs.provenance.empty())
     html += "<p>" + escape(inputs.provenance.front().value) + "</p>";
-  return html + "</div></div>\n";
+  return html + "</div>\n";
 }
 } // namespace
 
@@ -88,11 +98,11 @@ std::string summary_page_html(const ReportInputs &inputs)
   html += "<h1>" + escape(title) + "</h1>\n";
   if (evaluation.is_inverse_crime)
     html += "<p><b>" + escape(runner::inverse_crime_notice(evaluation)) + "</b></p>\n";
-  html += verdict_sentence(claims) + "<div class=\"first\">" + error_table_html(evaluation, inputs.truth) +
-          facts_html(evaluation) + "</div>\n" + short_claims(claims);
+  html += verdict_sentence(claims) + facts_html(evaluation) + "<div class=\"pair\">" +
+          error_table_html(evaluation, inputs.truth) + image_plane(inputs) + "</div>\n" + short_claims(claims);
   html += "<div><h2>Mean surface error by step, mean contour error by slice at the last step</h2><div class=\"legend\">" +
           legend_svg(dataset::organ_names) + "</div>" +
           row_of_panels(error_by_step_plots(evaluation)) + row_of_panels(error_by_slice_plots(evaluation)) + "</div>\n";
-  return html + low_row(inputs) + "</main></body></html>\n";
+  return html + notes(inputs) + "</main></body></html>\n";
 }
 } // namespace pelvireg::report
