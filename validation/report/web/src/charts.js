@@ -331,7 +331,7 @@ class Chart {
 
   runs(condition) {
     const n = Math.max(0, ...this.organs.map((organ) => this.curves(condition)[organ]?.n_runs[this.index] ?? 0));
-    return n > 1 ? `${n} runs: mean ± standard deviation` : n === 1 ? 'one run' : 'no run';
+    return n > 1 ? `mean ± sd of ${n} runs` : n === 1 ? 'one run' : 'no run';
   }
 
   row(condition, organ, o) {
