@@ -28,15 +28,26 @@ std::vector<std::pair<std::string, StageRecord>> recorded_stages(const Manifest 
   return stages;
 }
 
+/// The command lines behind the stages, each once.
+std::vector<std::string> commands_of(const Manifest &manifest)
+{
+  std::vector<std::string> commands;
+  for (const auto &[name, stage] : recorded_stages(manifest))
+    if (std::find(commands.begin(), commands.end(), stage.command_line) == commands.end())
+      commands.push_back(stage.command_line);
+  return commands;
+}
+
 /// What made the result. It holds nothing of this call, so that the same result gives the same report.
 std::vector<report::ProvenanceEntry> provenance_of(const Manifest &manifest)
 {
   std::vector<report::ProvenanceEntry> entries = {
       {"program", fmt::format("pelvireg {}, revision {}, {}", version(), revision(), build())}};
+  const bool one_command = commands_of(manifest).size() == 1; // which the page shows by itself
   for (const auto &[name, stage] : recorded_stages(manifest))
   {
-    entries.push_back(
-        {name, fmt::format("{:.1f} s, '{}', revision {}", stage.seconds, stage.command_line, stage.revision)});
+    entries.push_back({name, fmt::format("{:.1f} s, {}revision {}", stage.seconds,
+                                         one_command ? "" : "'" + stage.command_line + "', ", stage.revision)});
     for (const auto &[file, digest] : stage.outputs)
       entries.push_back({"SHA-256 of " + file, digest});
   }
@@ -49,16 +60,6 @@ std::vector<report::StageTime> times_of(const Manifest &manifest)
   for (const auto &[name, stage] : recorded_stages(manifest))
     times.push_back({name, stage.seconds});
   return times;
-}
-
-/// The command lines behind the stages, each once.
-std::vector<std::string> commands_of(const Manifest &manifest)
-{
-  std::vector<std::string> commands;
-  for (const auto &[name, stage] : recorded_stages(manifest))
-    if (std::find(commands.begin(), commands.end(), stage.command_line) == commands.end())
-      commands.push_back(stage.command_line);
-  return commands;
 }
 
 std::optional<dataset::Observations> observations_of(const ResultDirectory &directory)
@@ -111,7 +112,8 @@ std::vector<std::string> figure_files(const ResultDirectory &directory)
 {
   std::vector<std::string> conditions = {runner::unregistered};
   for (const std::string &file : estimate_files(directory))
-    conditions.push_back(file.substr(std::string("estimate-").size(), file.size() - std::string("estimate-.h5").size()));
+    conditions.push_back(
+        file.substr(std::string("estimate-").size(), file.size() - std::string("estimate-.h5").size()));
   std::vector<std::string> files;
   for (const std::string &name : report::figure_file_names(conditions))
     files.push_back(figure_folder + "/" + name);
@@ -169,8 +171,8 @@ void make_summary_pdf(ResultDirectory &directory, Judge &judge)
                  .work = [&](Progress &progress) -> Notes
                  {
                    const auto observations = observations_of(directory);
-                   const std::string page = report::summary_page_html(
-                       report_inputs(directory, judge.of(directory, progress), observations));
+                   const std::string page =
+                       report::summary_page_html(report_inputs(directory, judge.of(directory, progress), observations));
                    progress.update(0.6, "printing");
                    report::print_pdf(page, directory.path() / "summary.pdf");
                    return {};

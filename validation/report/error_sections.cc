@@ -56,10 +56,11 @@ std::string verdict_sentence(const std::vector<runner::ClaimVerdict> &claims)
     return std::count_if(claims.begin(), claims.end(),
                          [&](const runner::ClaimVerdict &claim) { return claim.verdict == verdict; });
   };
-  return fmt::format("<p class=\"lead\">Of the paper's {} claims, on this case: <span class=\"verdict yes\">{} "
-                     "confirmed</span> <span class=\"verdict no\">{} refuted</span> <span class=\"verdict open\">{} not "
-                     "assessed</span></p>\n",
-                     claims.size(), count("confirmed"), count("refuted"), count("not assessed"));
+  return fmt::format(
+      "<p class=\"lead\">Of the paper's {} claims, on this case: <span class=\"verdict yes\">{} "
+      "confirmed</span> <span class=\"verdict no\">{} refuted</span> <span class=\"verdict open\">{} not "
+      "assessed</span></p>\n",
+      claims.size(), count("confirmed"), count("refuted"), count("not assessed"));
 }
 
 namespace
@@ -71,8 +72,8 @@ std::vector<std::vector<std::string>> error_rows(const runner::Evaluation &evalu
   for (const std::string &organ : organ_names)
   {
     const auto by_step = runner::error_by_step(evaluation, condition, organ);
-    const auto worst = std::max_element(by_step.begin(), by_step.end(),
-                                        [](const auto &a, const auto &b) { return a.mean < b.mean; });
+    const auto worst =
+        std::max_element(by_step.begin(), by_step.end(), [](const auto &a, const auto &b) { return a.mean < b.mean; });
     const double nothing = runner::error_by_step(evaluation, runner::unregistered, organ).back().mean;
     last.push_back(millimetres(by_step.back()));
     largest.push_back(millimetres(*worst));
@@ -101,8 +102,8 @@ std::vector<std::vector<std::string>> floor_rows(const runner::Evaluation &evalu
 
 std::string error_table_html(const runner::Evaluation &evaluation, const dataset::Truth &truth)
 {
-  const std::vector<std::string> heading = organ_heading(
-      evaluation.is_inverse_crime ? "Mean surface error (mm), inverse crime" : "Mean surface error (mm)");
+  const std::vector<std::string> heading =
+      organ_heading(evaluation.is_inverse_crime ? "Mean surface error (mm), inverse crime" : "Mean surface error (mm)");
   std::vector<std::vector<std::string>> rows, others;
   for (const std::string &condition : reading_order(evaluation))
     for (const auto &row : error_rows(evaluation, condition))

@@ -21,7 +21,8 @@ std::string placed(const std::string &svg, double x, double y, double width, dou
 }
 
 /// The figure above its key, on white. Both begin with "<svg ".
-std::string standing_alone(const std::string &svg, double width, double height, const std::string &key, double key_width)
+std::string standing_alone(const std::string &svg, double width, double height, const std::string &key,
+                           double key_width)
 {
   constexpr double key_height = 26;
   return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
@@ -56,8 +57,8 @@ void write_figures(const ReportInputs &inputs, const std::filesystem::path &fold
 {
   std::filesystem::create_directories(folder);
   const std::string key = legend_svg(dataset::organ_names);
-  const auto write = [&](const std::string &figure, const std::string &condition, const std::string &svg,
-                         const std::string &its_key)
+  const auto write =
+      [&](const std::string &figure, const std::string &condition, const std::string &svg, const std::string &its_key)
   {
     const auto [width, height] = size_of(svg);
     runner::write_text_file(folder / fmt::format("{}-{}.svg", figure, condition),

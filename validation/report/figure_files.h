@@ -13,7 +13,7 @@ namespace pelvireg::report
 /// image_plane-LABEL.svg.
 std::vector<std::string> figure_file_names(const std::vector<std::string> &conditions);
 
-/// Write them into `folder`, made when missing: each an SVG that stands alone, with its key. Condition `unregistered` has
-/// no image_plane. Throws std::runtime_error when the disk refuses.
+/// Write them into `folder`, made when missing: each an SVG that stands alone, with its key. Condition `unregistered`
+/// has no image_plane. Throws std::runtime_error when the disk refuses.
 void write_figures(const ReportInputs &inputs, const std::filesystem::path &folder);
 } // namespace pelvireg::report

@@ -77,8 +77,7 @@ std::string distance_tables_html(const runner::Evaluation &evaluation)
     for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
     {
       heading.push_back(organ_names[organ]);
-      for (const runner::DistanceAggregate &slab :
-           runner::error_by_distance(evaluation, condition, organ_names[organ]))
+      for (const runner::DistanceAggregate &slab : runner::error_by_distance(evaluation, condition, organ_names[organ]))
       {
         auto &row = rows.try_emplace(slab.bin, std::vector<std::string>(organ_names.size() + 1, "–")).first->second;
         row[0] = fmt::format("{:+g}", slab.bin * evaluation.slice_pitch);

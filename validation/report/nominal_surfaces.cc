@@ -13,7 +13,7 @@ using dataset::organ_names;
 
 ConditionSurfaces unmoved(const dataset::Anatomy &anatomy)
 {
-  ConditionSurfaces surfaces{runner::unregistered, {}};
+  ConditionSurfaces surfaces{runner::unregistered, "", {}};
   for (const std::string &organ : organ_names)
   {
     const auto body = static_cast<std::size_t>(runner::body_index(anatomy.registration, organ));
@@ -31,9 +31,9 @@ bool shows_nominal_run(const dataset::Estimate &estimate, const std::vector<data
                       { return other.condition == estimate.condition && other.label() < estimate.label(); });
 }
 
-ConditionSurfaces moved(const std::string &label, const dataset::EstimateSample &run)
+ConditionSurfaces moved(const dataset::Estimate &estimate, const dataset::EstimateSample &run)
 {
-  ConditionSurfaces surfaces{label, {}};
+  ConditionSurfaces surfaces{estimate.label(), estimate.condition, {}};
   for (const dataset::EstimateSurface &surface : run.surfaces)
   {
     MovingSurface organ{surface.rest, {surface.rest.points}};
@@ -68,7 +68,7 @@ std::vector<ConditionSurfaces> nominal_surfaces(const ReportInputs &inputs)
     for (const dataset::Estimate &estimate : inputs.estimates)
       for (const dataset::EstimateSample &run : estimate.samples)
         if (estimate.label() == condition && run.sample == 0 && shows_nominal_run(estimate, inputs.estimates))
-          conditions.push_back(moved(condition, run));
+          conditions.push_back(moved(estimate, run));
   }
   return conditions;
 }

@@ -23,7 +23,8 @@ struct MovingSurface
 /// The organs of one condition, dataset::organ_names in order.
 struct ConditionSurfaces
 {
-  std::string condition;
+  std::string condition;   ///< as tables call it
+  std::string constraints; ///< the condition of the registration that made it; empty: none did
   std::vector<MovingSurface> organs;
 };
 
@@ -31,7 +32,7 @@ struct ConditionSurfaces
 std::vector<MovingSurface> truth_surfaces(const dataset::Truth &truth);
 
 /// Conditions in the evaluation's order. Frames: rest, then one a step; of `unregistered` the rest alone. Left out
-/// are a condition without a nominal run and, of several perturbations of one condition, all but the first by name: their
-/// nominal runs are the same.
+/// are a condition without a nominal run and, of several perturbations of one condition, all but the first by name:
+/// their nominal runs are the same.
 std::vector<ConditionSurfaces> nominal_surfaces(const ReportInputs &inputs);
 } // namespace pelvireg::report

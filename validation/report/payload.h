@@ -29,8 +29,8 @@ private:
 };
 
 /// Frames of n x 3 positions (mm, all of the same n) in int16 multiples of `quantum` mm: the first frame as it is, each
-/// further one as difference from the frame before, modulo 2^16. Differences are folded (0, -1, 1, -2, … become 0, 1, 2,
-/// 3, …) and all low bytes stand before all high bytes: frames that differ little compress well. Throws
+/// further one as difference from the frame before, modulo 2^16. Differences are folded (0, -1, 1, -2, … become 0, 1,
+/// 2, 3, …) and all low bytes stand before all high bytes: frames that differ little compress well. Throws
 /// std::runtime_error for a coordinate beyond what int16 can hold.
 std::string pack_positions(const std::vector<dataset::Points> &frames, double quantum);
 

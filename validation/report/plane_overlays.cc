@@ -151,7 +151,8 @@ std::string plane_overlay_figure(const std::vector<NamedSvg> &panels)
   std::string first, others;
   for (const NamedSvg &panel : panels)
     (is_main_condition(panel.condition) ? first : others) += "<figure>" + panel.svg + "</figure>\n";
-  std::string html = "<p class=\"key\">" + overlay_key_svg() + "</p>\n<div class=\"panels wide\">\n" + first + "</div>\n";
+  std::string html =
+      "<p class=\"key\">" + overlay_key_svg() + "</p>\n<div class=\"panels wide\">\n" + first + "</div>\n";
   return others.empty() ? html
                         : html + details("Other conditions", "<div class=\"panels wide\">\n" + others + "</div>\n");
 }

@@ -90,7 +90,7 @@ void print_pdf(const std::string &html, const fs::path &file, double time_limit_
   const auto chromium = find_in_path("chromium");
   if (!chromium)
     throw InputError("A PDF is printed by Chromium, and there is no program 'chromium' in PATH; install the package "
-                              "chromium, or print report.html from a browser");
+                     "chromium, or print report.html from a browser");
   const TemporaryFolder folder;
   runner::write_text_file(folder.path() / "page.html", html);
   run_chromium(*chromium, folder.path(), time_limit_s);

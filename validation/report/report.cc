@@ -75,9 +75,9 @@ std::string space_sections(const Contents &contents)
   const ReportInputs &inputs = contents.inputs;
   const std::size_t shown = shown_condition(contents.conditions);
   const std::string name = shown < contents.conditions.size() ? contents.conditions[shown].condition : "none";
-  std::string html = section("space", "In three dimensions",
-                             "<div id=\"viewer\"></div>\n<div id=\"pictures\">\n" + pictures_html(inputs.pictures) +
-                                 "</div>\n");
+  std::string html =
+      section("space", "In three dimensions",
+              "<div id=\"viewer\"></div>\n<div id=\"pictures\">\n" + pictures_html(inputs.pictures) + "</div>\n");
   html += section("slices", "Slices at the last step",
                   "<p>Cut by the judge's own slicer, seen from the left: anterior is left, superior is up.</p>\n"
                   "<div id=\"slice-view\"></div>\n" +
@@ -98,8 +98,8 @@ std::string further_sections(const Contents &contents)
   std::string html = section("metrics", "What surface distance does not see",
                              "<p>At the last step, means over the runs. Definitions are below.</p>\n" +
                                  chart("metric", metrics_html(evaluation)));
-  html += section("distance", "Error by distance from the image plane", chart("distance", "") +
-                                                                            distance_tables_html(evaluation));
+  html += section("distance", "Error by distance from the image plane",
+                  chart("distance", "") + distance_tables_html(evaluation));
   html += section("elements", "Elements and penetration",
                   "<p>Of all runs the worst. J is an element's volume over its volume at rest; 0 or less is turned "
                   "inside out.</p>\n" +
@@ -117,7 +117,8 @@ std::string footer(const ReportInputs &inputs)
   html += section("limits", "What this is not", limits_html());
   html += section("provenance", "Provenance", provenance_html(inputs.provenance, inputs.commands));
   return html + "<footer>\n" +
-         details("Licences of the libraries in this page", "<pre>" + escape(std::string(page_licences())) + "</pre>\n") +
+         details("Licences of the libraries in this page",
+                 "<pre>" + escape(std::string(page_licences())) + "</pre>\n") +
          "</footer>\n";
 }
 } // namespace
@@ -133,8 +134,10 @@ std::string report_html(const ReportInputs &inputs)
   html += "<h1>" + escape(title) + "</h1>\n";
   if (evaluation.is_inverse_crime)
     html += "<p class=\"lead\"><b>" + escape(runner::inverse_crime_notice(evaluation)) + "</b></p>\n";
-  html += page_links() + verdict_sentence(runner::assess_claims(evaluation, inputs.timings)) + "<div class=\"first\">\n<div>" + error_table_html(evaluation, inputs.truth) +
-          "<p>The paper's bound for every organ and step: below 4 mm. ± is the standard deviation between runs.</p></div>\n" +
+  html += page_links() + verdict_sentence(runner::assess_claims(evaluation, inputs.timings)) +
+          "<div class=\"first\">\n<div>" + error_table_html(evaluation, inputs.truth) +
+          "<p>The paper's bound for every organ and step: below 4 mm. ± is the standard deviation between "
+          "runs.</p></div>\n" +
           facts_html(evaluation) + "</div>\n";
   html += error_sections(contents) + space_sections(contents) + further_sections(contents) + footer(inputs);
   html += "</main>\n<script type=\"application/octet-stream\" id=\"data\">" +

@@ -47,7 +47,7 @@ struct ReportInputs
   std::vector<ReportPicture> pictures;
   std::vector<ProvenanceEntry> provenance;
   std::vector<StageTime> stages = {};
-  std::vector<std::string> commands = {};             ///< that make the result again
+  std::vector<std::string> commands = {};              ///< that make the result again
   const dataset::Observations *observations = nullptr; ///< control points of the 3-D view, when known
 };
 

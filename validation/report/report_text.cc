@@ -20,13 +20,15 @@ std::string definition(const std::string &term, const std::string &meaning)
 std::string definitions_of_metrics(const runner::Evaluation &evaluation)
 {
   std::string html;
-  html += definition("Material-point error",
-                     "Length of the estimate's displacement minus the truth's, at the judge's surface samples; the point "
-                     "of the estimate's rest surface closest to a sample at rest stands for it. Of unregistered it is the "
-                     "truth's motion. Its parts along and across the truth's surface normal are averaged by length.");
-  html += definition("Symmetric distance, HD95",
-                     "Mean of the distances of the truth's samples to the estimate and of the estimate's own samples to "
-                     "the truth (ASSD); the larger of both directions' 95th percentiles.");
+  html +=
+      definition("Material-point error",
+                 "Length of the estimate's displacement minus the truth's, at the judge's surface samples; the point "
+                 "of the estimate's rest surface closest to a sample at rest stands for it. Of unregistered it is the "
+                 "truth's motion. Its parts along and across the truth's surface normal are averaged by length.");
+  html +=
+      definition("Symmetric distance, HD95",
+                 "Mean of the distances of the truth's samples to the estimate and of the estimate's own samples to "
+                 "the truth (ASSD); the larger of both directions' 95th percentiles.");
   html += definition("Dice", fmt::format("Twice the volume in common over the sum of both volumes, of what the closed "
                                          "outer surfaces enclose, lumen included, along lines {:g} mm apart.",
                                          evaluation.options.line_spacing));
@@ -38,13 +40,18 @@ std::string definitions_of_metrics(const runner::Evaluation &evaluation)
                                  "they are in the truth at the last step. No slab is missed and none weighs more "
                                  "because a plane grazes the organ.",
                                  evaluation.slice_pitch));
+  html +=
+      definition("The truth's own error bar",
+                 "Grid convergence index of the truth's displacement by a study of the same case on three meshes, mean "
+                 "over material points of an organ's outer surface away from bars, at the last increment.");
   html += definition("Penetration", "How deep a node or triangle's centroid of one organ lies inside another, and the "
                                     "volume inside both; the judge's own points, largest over the positions. Attached: "
                                     "the registration holds the two together, they meet by design.");
-  html += definition("Colours in the 3-D view",
-                     "Of the truth's nodes the distance to the closest triangle of the estimate, of the estimate's nodes "
-                     "the distance to the truth, at that step, in steps of 0.04 mm. Nodes are not the judge's samples: "
-                     "their largest value can exceed the tables'.");
+  html +=
+      definition("Colours in the 3-D view",
+                 "Of the truth's nodes the distance to the closest triangle of the estimate, of the estimate's nodes "
+                 "the distance to the truth, at that step, in steps of 0.04 mm. Nodes are not the judge's samples: "
+                 "their largest value can exceed the tables'.");
   return html;
 }
 
@@ -83,18 +90,18 @@ std::string page_head(const std::string &title, std::string_view script_digest)
 std::string page_links()
 {
   std::string html = "<nav aria-label=\"Parts of this page\">";
-  for (const auto &[id, name] : std::initializer_list<std::pair<const char *, const char *>>{
-           {"claims", "Claims"},
-           {"by-step", "By step"},
-           {"by-slice", "By slice"},
-           {"space", "3-D"},
-           {"slices", "Slices"},
-           {"worst", "Worst places"},
-           {"metrics", "Metrics"},
-           {"truth", "Truth"},
-           {"time", "Time"},
-           {"definitions", "Definitions"},
-           {"provenance", "Provenance"}})
+  for (const auto &[id, name] :
+       std::initializer_list<std::pair<const char *, const char *>>{{"claims", "Claims"},
+                                                                    {"by-step", "By step"},
+                                                                    {"by-slice", "By slice"},
+                                                                    {"space", "3-D"},
+                                                                    {"slices", "Slices"},
+                                                                    {"worst", "Worst places"},
+                                                                    {"metrics", "Metrics"},
+                                                                    {"truth", "Truth"},
+                                                                    {"time", "Time"},
+                                                                    {"definitions", "Definitions"},
+                                                                    {"provenance", "Provenance"}})
     html += fmt::format("<a href=\"#{}\">{}</a>", id, name);
   return html + "</nav>\n";
 }

@@ -27,9 +27,10 @@ std::string runs_text(const runner::Evaluation &evaluation)
   std::string text;
   for (const std::string &condition : reading_order(evaluation))
     if (randomised.contains(condition))
-      text += (text.empty() ? "" : ", ") + condition +
-              (alike ? "" : fmt::format(" (1 + {} runs)", randomised[condition]));
-  return alike ? fmt::format("{}; {} one nominal and {} randomised runs", text, randomised.size() > 1 ? "each" : "in", first)
+      text +=
+          (text.empty() ? "" : ", ") + condition + (alike ? "" : fmt::format(" (1 + {} runs)", randomised[condition]));
+  return alike ? fmt::format("{}; {} one nominal and {} randomised runs", text, randomised.size() > 1 ? "each" : "in",
+                             first)
                : text;
 }
 } // namespace

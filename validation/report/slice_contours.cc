@@ -92,8 +92,7 @@ std::vector<std::vector<CutSegment>> cut_all(const std::vector<MovingSurface> &o
 {
   std::vector<std::vector<CutSegment>> cuts;
   for (const MovingSurface &organ : organs)
-    cuts.push_back(
-        metrics::cut_surface(organ.frames.back(), organ.rest.triangles, organ.rest.region, plane));
+    cuts.push_back(metrics::cut_surface(organ.frames.back(), organ.rest.triangles, organ.rest.region, plane));
   return cuts;
 }
 
@@ -122,8 +121,8 @@ std::vector<SliceLabel> labels_of(const std::vector<std::vector<CutSegment>> &cu
     for (const CutSegment &segment : cuts[organ])
       box.add(view(segment.ends[0].position));
     if (!cuts[organ].empty())
-      labels.push_back({dataset::organ_names[organ], (box.lower.x() + box.upper.x()) / 2,
-                        (box.lower.y() + box.upper.y()) / 2});
+      labels.push_back(
+          {dataset::organ_names[organ], (box.lower.x() + box.upper.x()) / 2, (box.lower.y() + box.upper.y()) / 2});
   }
   return labels;
 }
@@ -131,12 +130,12 @@ std::vector<SliceLabel> labels_of(const std::vector<std::vector<CutSegment>> &cu
 std::string panel(const SliceDrawing &drawing, const SliceContours &slice, std::size_t condition, double pitch)
 {
   const double offset = slice.index * pitch;
-  const std::string side = slice.index == 0 ? "image plane" : fmt::format("{:g} mm {}", std::abs(offset),
-                                                                          offset > 0 ? "left" : "right");
-  std::string html = fmt::format(
-      "<figure class=\"slice\" data-index=\"{}\"><svg viewBox=\"{:.1f} {:.1f} {:.1f} {:.1f}\" role=\"img\" "
-      "aria-label=\"Slice {}, {}: contours of truth and estimate\">",
-      slice.index, drawing.left, drawing.top, drawing.width, drawing.height, slice.index, side);
+  const std::string side =
+      slice.index == 0 ? "image plane" : fmt::format("{:g} mm {}", std::abs(offset), offset > 0 ? "left" : "right");
+  std::string html =
+      fmt::format("<figure class=\"slice\" data-index=\"{}\"><svg viewBox=\"{:.1f} {:.1f} {:.1f} {:.1f}\" role=\"img\" "
+                  "aria-label=\"Slice {}, {}: contours of truth and estimate\">",
+                  slice.index, drawing.left, drawing.top, drawing.width, drawing.height, slice.index, side);
   html += fmt::format("<path class=\"truth\" d=\"{}\"/><path class=\"estimate\" d=\"{}\"/>", slice.truth,
                       condition < slice.estimates.size() ? slice.estimates[condition] : "");
   for (const SliceLabel &label : slice.labels)
@@ -181,10 +180,11 @@ SliceDrawing slice_drawing(const ReportInputs &inputs, const std::vector<MovingS
 
 std::string slices_figure(const SliceDrawing &drawing, std::size_t condition, const std::string &name, double pitch)
 {
-  std::string html = fmt::format("<p class=\"slice-key\"><span class=\"line truth\"></span> truth <span class=\"line "
-                                 "estimate\"></span> estimate, condition <span class=\"slice-condition\">{}</span></p>\n"
-                                 "<div class=\"slice-grid\">\n",
-                                 escape(name));
+  std::string html =
+      fmt::format("<p class=\"slice-key\"><span class=\"line truth\"></span> truth <span class=\"line "
+                  "estimate\"></span> estimate, condition <span class=\"slice-condition\">{}</span></p>\n"
+                  "<div class=\"slice-grid\">\n",
+                  escape(name));
   for (const SliceContours &slice : drawing.slices)
     html += panel(drawing, slice, condition, pitch);
   return html + "</div>\n";

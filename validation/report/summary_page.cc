@@ -46,8 +46,8 @@ std::string short_claims(const std::vector<runner::ClaimVerdict> &claims)
 {
   std::string html = "<table class=\"claims\"><tbody>\n";
   for (const runner::ClaimVerdict &claim : claims)
-    html += fmt::format("<tr><td>{}</td><td>{} <b>Paper:</b> {}. <b>Here:</b> {}.</td></tr>\n", verdict_mark(claim.verdict),
-                        escape(claim.claim), escape(claim.paper), escape(claim.ours));
+    html += fmt::format("<tr><td>{}</td><td>{} <b>Paper:</b> {}. <b>Here:</b> {}.</td></tr>\n",
+                        verdict_mark(claim.verdict), escape(claim.claim), escape(claim.paper), escape(claim.ours));
   return html + "</tbody></table>\n";
 }
 
@@ -72,14 +72,17 @@ std::string notes(const ReportInputs &inputs)
 {
   std::string html = "<div class=\"low\">";
   if (inputs.truth.discretisation_error)
-    html += fmt::format("<p><b>The truth itself</b>: error bar of its mesh, displacement, over all increments: mean at most "
-                        "{:.2f} mm, largest {:.2f} mm.</p>",
-                        inputs.truth.discretisation_error->mean.maxCoeff(),
-                        inputs.truth.discretisation_error->max.maxCoeff());
-  html += "<p><b>Surface error</b>: distance from fixed material points of the truth's outer surface to the closest triangle "
-          "of the registered surface. <b>Slices</b> are parallel to the image plane (index 0), contours in the same plane. "
-          "Bands and ±: standard deviation between runs.</p>"
-          "<p><b>What this is not</b>: a comparison with a synthetic reference is verification, not clinical validation.</p>";
+    html += fmt::format(
+        "<p><b>The truth itself</b>: error bar of its mesh, displacement, over all increments: mean at most "
+        "{:.2f} mm, largest {:.2f} mm.</p>",
+        inputs.truth.discretisation_error->mean.maxCoeff(), inputs.truth.discretisation_error->max.maxCoeff());
+  html +=
+      "<p><b>Surface error</b>: distance from fixed material points of the truth's outer surface to the closest "
+      "triangle "
+      "of the registered surface. <b>Slices</b> are parallel to the image plane (index 0), contours in the same plane. "
+      "Bands and ±: standard deviation between runs.</p>"
+      "<p><b>What this is not</b>: a comparison with a synthetic reference is verification, not clinical "
+      "validation.</p>";
   for (const std::string &command : inputs.commands)
     html += "<p><b>Made by</b>: " + escape(command) + "</p>";
   if (!inputs.provenance.empty())
@@ -100,9 +103,10 @@ std::string summary_page_html(const ReportInputs &inputs)
     html += "<p><b>" + escape(runner::inverse_crime_notice(evaluation)) + "</b></p>\n";
   html += verdict_sentence(claims) + facts_html(evaluation) + "<div class=\"pair\">" +
           error_table_html(evaluation, inputs.truth) + image_plane(inputs) + "</div>\n" + short_claims(claims);
-  html += "<div><h2>Mean surface error by step, mean contour error by slice at the last step</h2><div class=\"legend\">" +
-          legend_svg(dataset::organ_names) + "</div>" +
-          row_of_panels(error_by_step_plots(evaluation)) + row_of_panels(error_by_slice_plots(evaluation)) + "</div>\n";
+  html +=
+      "<div><h2>Mean surface error by step, mean contour error by slice at the last step</h2><div class=\"legend\">" +
+      legend_svg(dataset::organ_names) + "</div>" + row_of_panels(error_by_step_plots(evaluation)) +
+      row_of_panels(error_by_slice_plots(evaluation)) + "</div>\n";
   return html + notes(inputs) + "</main></body></html>\n";
 }
 } // namespace pelvireg::report

@@ -1,6 +1,7 @@
 #include "validation/report/view_data.h"
 
 #include "validation/metrics/surface_distance.h"
+#include "validation/runner/conditions.h"
 #include "validation/runner/outer_surface.h"
 
 #include <fmt/format.h>
@@ -76,28 +77,33 @@ json add_bars(Payload &payload, const dataset::Truth &truth)
 }
 
 /// Nodes of an organ's outer surface next to the points that an attachment holds, at rest: they move with the surface.
-json attachments_json(const ReportInputs &inputs, const std::vector<MovingSurface> &rest_surfaces)
+std::set<Eigen::Index> held_nodes(const dataset::RegistrationModel &model,
+                                  const dataset::RegistrationAttachment &attachment, const Points &surface)
 {
-  json list = json::array();
-  const dataset::RegistrationModel &model = inputs.anatomy.registration;
-  for (const dataset::RegistrationAttachment &attachment : model.attachments)
+  const Points &body = model.bodies[static_cast<std::size_t>(runner::body_index(model, attachment.body_a))].points;
+  std::set<Eigen::Index> nodes;
+  for (const std::int32_t node : attachment.nodes_a)
   {
-    const auto organ = std::find(organ_names.begin(), organ_names.end(), attachment.body_b);
-    if (organ == organ_names.end())
-      continue;
-    const auto place = static_cast<std::size_t>(organ - organ_names.begin());
-    const Points &surface = rest_surfaces[place].rest.points;
-    const Points &body = model.bodies[static_cast<std::size_t>(runner::body_index(model, attachment.body_a))].points;
-    std::set<Eigen::Index> nodes;
-    for (const std::int32_t node : attachment.nodes_a)
-    {
-      Eigen::Index closest = 0;
-      (surface.rowwise() - body.row(node)).rowwise().squaredNorm().minCoeff(&closest);
-      nodes.insert(closest);
-    }
-    list.push_back({{"name", attachment.name}, {"kind", attachment.kind}, {"organ", place}, {"nodes", nodes}});
+    Eigen::Index closest = 0;
+    (surface.rowwise() - body.row(node)).rowwise().squaredNorm().minCoeff(&closest);
+    nodes.insert(closest);
   }
-  return list;
+  return nodes;
+}
+
+/// What holds the organs in a condition, one list an organ.
+json attachments_json(const dataset::Anatomy &anatomy, const ConditionSurfaces &condition)
+{
+  std::vector<std::set<Eigen::Index>> held(condition.organs.size());
+  if (!condition.constraints.empty() && runner::options_of(condition.constraints, anatomy).use_attachments)
+  {
+    const dataset::RegistrationModel model = runner::model_of(condition.constraints, anatomy.registration);
+    for (const dataset::RegistrationAttachment &attachment : model.attachments)
+      for (std::size_t organ = 0; organ < held.size(); ++organ)
+        if (attachment.body_b == organ_names[organ])
+          held[organ].merge(held_nodes(model, attachment, condition.organs[organ].rest.points));
+  }
+  return held;
 }
 
 json control_points_json(const dataset::Observations *observations)
@@ -146,7 +152,9 @@ json view_data(const ReportInputs &inputs, const std::vector<MovingSurface> &tru
   view["plane"] = {{"origin", vector_json(inputs.anatomy.dyn_plane.origin)},
                    {"normal", vector_json(inputs.anatomy.dyn_plane.normal)}};
   view["bars"] = add_bars(payload, inputs.truth);
-  view["attachments"] = conditions.empty() ? json::array() : attachments_json(inputs, conditions.front().organs);
+  view["attachments"] = json::array();
+  for (const ConditionSurfaces &condition : conditions)
+    view["attachments"].push_back(attachments_json(inputs.anatomy, condition));
   view["control_points"] = control_points_json(inputs.observations);
   return view;
 }

@@ -10,8 +10,9 @@
 
 namespace pelvireg::report
 {
-/// Description of the view; what is large goes into parts of the payload. Parts, by organ o and condition c (their
-/// places in the lists):
+/// Description of the view: plane, control points at rest and at each increment, and by condition and organ the nodes
+/// of the estimate that attachments hold. What is large goes into parts of the payload. Parts, by organ o and condition
+/// c (their places in the lists):
 ///   truth/o, estimate/c/o         positions at rest and at each increment or step (pack_positions, `quantum_mm`)
 ///   truth/o/wall, truth/o/caps    triangles that are scored, and the others (pack_indices); estimate/c/o/… likewise
 ///   error/c/o                     distance of each node of the truth at step s to the estimate at step s (pack_values,

@@ -19,9 +19,9 @@ std::vector<WorstPlace> worst_first(std::vector<WorstPlace> places)
                    [](const WorstPlace &a, const WorstPlace &b) { return a.error > b.error; });
   std::vector<WorstPlace> kept;
   for (const WorstPlace &place : places)
-    if (kept.size() < n_places &&
-        std::none_of(kept.begin(), kept.end(), [&](const WorstPlace &other)
-                     { return (other.position - place.position).norm() < least_distance; }))
+    if (kept.size() < n_places && std::none_of(kept.begin(), kept.end(),
+                                               [&](const WorstPlace &other)
+                                               { return (other.position - place.position).norm() < least_distance; }))
       kept.push_back(place);
   return kept;
 }

@@ -113,6 +113,8 @@ test('the arrow keys read the same values, and the focus is seen', async () => {
 test('the step slider moves with the arrow keys and changes what is drawn', async () => {
   await withPage(report, {}, async ({ page, said }) => {
     const canvas = page.locator('.stage canvas'), slider = page.locator('#step-slider');
+    for (const text of ['image plane', 'outline points']) // which move too: only the organs shall tell
+      await page.locator('.panel fieldset label', { hasText: text }).first().locator('input').click();
     await canvas.scrollIntoViewIfNeeded();
     const last = await canvas.screenshot();
     assert.ok(last.equals(await canvas.screenshot()), 'a view at rest does not change');
@@ -122,12 +124,12 @@ test('the step slider moves with the arrow keys and changes what is drawn', asyn
     assert.ok(!last.equals(await canvas.screenshot()), 'another step looks different');
     await page.keyboard.press('End');
     assert.ok(last.equals(await canvas.screenshot()), 'back at the last step it looks as before');
-    for (const [label, value] of [['Show', 'estimate'], ['Show', 'both'], ['Condition', 'no_boundary_conditions'], ['Colour', 'true']]) {
+    for (const [label, value] of [['Show', 'estimate'], ['Show', 'both'], ['Condition', 'no_boundary_conditions'], ['Condition', 'full'], ['Colour', 'true'], ['Colour', 'false'], ['Scale', '1']]) {
       const before = await canvas.screenshot();
       await page.locator('.panel label', { hasText: label }).locator('select').selectOption(value);
       assert.ok(!before.equals(await canvas.screenshot()), `${label}: ${value}`);
     }
-    for (const text of ['image plane', 'bladder', "the truth's ligaments", "the registration's attachments", 'cut open']) {
+    for (const text of ['image plane', 'outline points', 'bladder', "the truth's ligaments", "the condition's attachments", 'cut open']) {
       const before = await canvas.screenshot();
       await page.locator('.panel fieldset label', { hasText: text }).first().locator('input').click();
       assert.ok(!before.equals(await canvas.screenshot()), text);

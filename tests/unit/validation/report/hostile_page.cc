@@ -10,8 +10,7 @@ int main(int argc, char **argv)
   using namespace pelvireg;
   if (argc != 2)
     return 2;
-  const std::string name =
-      "</script><script>window.caught = 1</script><img src=x onerror=\"window.caught = 2\">'\"&";
+  const std::string name = "</script><script>window.caught = 1</script><img src=x onerror=\"window.caught = 2\">'\"&";
   const Eigen::Vector3d translation(2, 5, -6);
   dataset::Anatomy anatomy = test::sphere_anatomy();
   dataset::Truth truth = test::sphere_truth(translation);

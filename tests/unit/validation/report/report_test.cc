@@ -35,7 +35,8 @@ struct Case
 TEST(Report, PutsVerdictAndErrorsBeforeEverythingElse)
 {
   const std::string html = Case().html();
-  const std::size_t verdict = html.find(" confirmed</span>"), table = html.find("<table>"), figure = html.find("<figure>");
+  const std::size_t verdict = html.find(" confirmed</span>"), table = html.find("<table>"),
+                    figure = html.find("<figure>");
   ASSERT_NE(verdict, std::string::npos);
   EXPECT_LT(verdict, table);
   EXPECT_LT(table, figure);

@@ -52,10 +52,11 @@ export class Surroundings {
   }
 
   has(what) {
-    return { controlPoints: this.view.control_points.length > 0, attachments: this.view.attachments.length > 0, bars: this.barFrames !== null }[what] ?? true;
+    return { controlPoints: this.view.control_points.length > 0, attachments: this.view.attachments.some((organs) => organs.some((nodes) => nodes.length > 0)), bars: this.barFrames !== null }[what] ?? true;
   }
 
-  show(step, estimate, visible) {
+  /** nominal, estimate: place and surfaces of the condition. */
+  show(step, nominal, estimate, visible) {
     const increment = Math.ceil(step / this.stepsPerIncrement);
     this.plane.visible = visible.plane;
     this.controlPoints.visible = visible.controlPoints && this.has('controlPoints');
@@ -63,15 +64,15 @@ export class Surroundings {
     this.bars.visible = visible.bars && this.has('bars');
     if (this.controlPoints.visible) setPositions(this.controlPoints, new Float32Array(this.view.control_points[increment]));
     if (this.bars.visible) setPositions(this.bars, this.barFrames[increment]);
-    if (this.attachments.visible) setPositions(this.attachments, this.attachmentNodes(step, estimate));
+    if (this.attachments.visible) setPositions(this.attachments, this.attachmentNodes(step, nominal, estimate));
   }
 
-  attachmentNodes(step, estimate) {
+  attachmentNodes(step, nominal, estimate) {
     const values = [];
-    for (const { organ, nodes } of this.view.attachments) {
+    this.view.attachments[nominal].forEach((nodes, organ) => {
       const positions = estimate[organ].nodes(step);
       for (const node of nodes) values.push(...positions.subarray(3 * node, 3 * node + 3));
-    }
+    });
     return new Float32Array(values);
   }
 }

@@ -113,7 +113,7 @@ class Viewer {
 
   choices() {
     return [
-      this.choice('Show', [['truth', 'truth'], ['estimate', 'estimate'], ['both', 'truth, estimate as wires']], 'shown'),
+      this.choice('Show', [['truth', 'truth'], ['estimate', 'estimate'], ['both', 'truth and estimate']], 'shown'),
       this.choice('Condition', this.conditions.map(({ name }) => [name, name]), 'condition'),
       this.choice('Colour', [['false', 'error'], ['true', 'organ']], 'byOrgan', (value) => value === 'true'),
       this.choice('Scale', [['1', '0 to 1 mm'], ['2', '0 to 2 mm'], ['4', '0 to 4 mm (paper)'], ['10', '0 to 10 mm']], 'scale', Number),
@@ -140,7 +140,7 @@ class Viewer {
 
   thingBoxes() {
     const things = [['plane', 'image plane'], ['controlPoints', 'outline points (control points)'],
-      ['attachments', "the registration's attachments"], ['bars', "the truth's ligaments and fasciae"]];
+      ['attachments', "the condition's attachments"], ['bars', "the truth's ligaments and fasciae"]];
     return this.boxes('Around them', [
       ...things.filter(([key]) => this.surroundings.has(key)).map(([key, text]) => [text, this.state[key], (on) => this.set({ [key]: on })]),
       ['cut open at the image plane', this.state.cut, (on) => this.set({ cut: on })],
@@ -191,7 +191,7 @@ class Viewer {
       if (shown !== 'truth') show(estimate[o], step, true, shown === 'both' ? { wires: true } : { solid: true });
     });
     if (this.drawn.length) this.scene.add(...this.drawn);
-    this.surroundings.show(step, estimate, this.state);
+    this.surroundings.show(step, this.nominal, estimate, this.state);
     this.write(increment);
     this.render();
   }
