@@ -14,7 +14,7 @@ export async function withPage(file, { width = 1280, javaScript = true, webGL = 
     args: ['--no-sandbox', ...(webGL ? softwareGL : noGL)], // tests may run as root, where there is no sandbox
   });
   try {
-    const context = await browser.newContext({ viewport: { width, height: 900 }, javaScriptEnabled: javaScript, acceptDownloads: true });
+    const context = await browser.newContext({ viewport: { width, height: 900 }, javaScriptEnabled: javaScript, acceptDownloads: true, reducedMotion: 'reduce' });
     const page = await context.newPage();
     const said = [], requests = [], dialogs = [];
     page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !fromDriver(message)) said.push(message.text()); });
@@ -28,6 +28,17 @@ export async function withPage(file, { width = 1280, javaScript = true, webGL = 
   } finally {
     await browser.close();
   }
+}
+
+/** A screenshot of the element when two in a row are the same. */
+export async function pictureOf(locator) {
+  await locator.scrollIntoViewIfNeeded();
+  for (let before = await locator.screenshot(), i = 0; i < 20; ++i) {
+    const now = await locator.screenshot();
+    if (now.equals(before)) return now;
+    before = now;
+  }
+  throw new Error('the element does not come to rest');
 }
 
 /** What software OpenGL says of its own speed when a picture is read back. */
