@@ -41,11 +41,11 @@ std::vector<std::string> reading_order(const runner::Evaluation &evaluation)
 }
 
 std::string by_condition(const runner::Evaluation &evaluation,
-                         const std::function<std::string(const std::string &)> &piece)
+                         const std::function<std::string(const std::string &)> &piece, const std::string &others)
 {
-  std::string html, others;
+  std::string seen, closed;
   for (const std::string &condition : reading_order(evaluation))
-    (is_main_condition(condition) ? html : others) += piece(condition);
-  return others.empty() ? html : html + details("Other conditions", others);
+    (is_main_condition(condition) ? seen : closed) += piece(condition);
+  return closed.empty() ? seen : seen + details(others, closed);
 }
 } // namespace pelvireg::report

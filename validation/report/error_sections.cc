@@ -153,7 +153,7 @@ std::string step_tables_html(const runner::Evaluation &evaluation)
     }
     return details("Values, " + condition, table(organ_heading("step (mm)"), rows));
   };
-  return by_condition(evaluation, of_condition);
+  return by_condition(evaluation, of_condition, "Values, other conditions");
 }
 
 std::string slice_tables_html(const runner::Evaluation &evaluation)
@@ -173,7 +173,7 @@ std::string slice_tables_html(const runner::Evaluation &evaluation)
     }
     return details("Values, " + condition, table(organ_heading("slice (mm)"), rows));
   };
-  return by_condition(evaluation, of_condition);
+  return by_condition(evaluation, of_condition, "Values, other conditions");
 }
 
 std::string worst_places_html(const runner::Evaluation &evaluation, const std::vector<WorstPlace> &places)

@@ -89,7 +89,7 @@ std::string distance_tables_html(const runner::Evaluation &evaluation)
       list.push_back(row);
     return details("Values, " + condition + ": surface / material point (mm)", table(heading, list));
   };
-  return by_condition(evaluation, of_condition);
+  return by_condition(evaluation, of_condition, "Values, other conditions");
 }
 
 std::string elements_html(const runner::Evaluation &evaluation)

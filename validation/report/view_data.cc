@@ -35,6 +35,14 @@ void add_surface(Payload &payload, const std::string &name, const MovingSurface 
   payload.add(name + "/caps", pack_indices(caps));
 }
 
+json node_counts(const std::vector<MovingSurface> &organs)
+{
+  json counts = json::array();
+  for (const MovingSurface &organ : organs)
+    counts.push_back(organ.rest.points.rows());
+  return counts;
+}
+
 metrics::SurfaceTree tree_of(const MovingSurface &organ, std::size_t frame)
 {
   return {organ.at(frame), organ.rest.triangles, organ.rest.region};
@@ -145,10 +153,10 @@ json view_data(const ReportInputs &inputs, const std::vector<MovingSurface> &tru
       add_surface(payload, "estimate/" + place, estimate);
       add_errors(payload, place, truth[static_cast<std::size_t>(o)], estimate, inputs.evaluation.steps_per_increment);
     }
-  json sizes = json::array();
-  for (const MovingSurface &organ : truth)
-    sizes.push_back(organ.rest.points.rows());
-  json view = {{"quantum_mm", quantum}, {"error_quantum_mm", error_quantum}, {"truth_nodes", sizes}};
+  json view = {{"quantum_mm", quantum}, {"error_quantum_mm", error_quantum}, {"truth_nodes", node_counts(truth)}};
+  view["estimate_nodes"] = json::array();
+  for (const ConditionSurfaces &condition : conditions)
+    view["estimate_nodes"].push_back(node_counts(condition.organs));
   view["plane"] = {{"origin", vector_json(inputs.anatomy.dyn_plane.origin)},
                    {"normal", vector_json(inputs.anatomy.dyn_plane.normal)}};
   view["bars"] = add_bars(payload, inputs.truth);

@@ -146,6 +146,21 @@ test('the step slider moves with the arrow keys and changes what is drawn', asyn
   });
 });
 
+test('the mouse reads organ, error and side off the 3-D view', async () => {
+  await withPage(report, {}, async ({ page }) => {
+    const canvas = page.locator('.stage canvas');
+    await canvas.scrollIntoViewIfNeeded();
+    const box = await canvas.boundingBox();
+    const seen = new Set();
+    for (let share = 0.2; share < 0.8; share += 0.05) {
+      await page.mouse.move(box.x + share * box.width, box.y + 0.5 * box.height);
+      const text = await page.locator('.read-out').textContent();
+      if (text) seen.add(text.match(/^(\w+): \d+\.\d\d mm, \d+ mm (left|right) of the image plane$/)[1]);
+    }
+    assert.ok(seen.size >= 2 && [...seen].every((organ) => organs.includes(organ)), [...seen].join());
+  });
+});
+
 test('the slice slider shows the slice and the values of the CSV', async () => {
   await withPage(report, {}, async ({ page }) => {
     const slider = page.locator('#slice-view input[type=range]');

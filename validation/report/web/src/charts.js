@@ -221,7 +221,7 @@ class Chart {
     const canvas = element('div', { className: 'plot', tabIndex: 0 });
     canvas.setAttribute('role', 'group');
     canvas.setAttribute('aria-label', `${this.choice} by ${this.description.xLabel}, ${title.textContent}; left and right arrow keys move the cursor`);
-    const table = element('table', { className: 'values' });
+    const table = element('table', { className: 'values', ariaLive: 'polite' });
     this.panels.append(element('figure', {}, title, canvas, table));
     const plot = new uPlot(this.options(canvas, range), this.columns(condition), canvas);
     canvas.addEventListener('keydown', (event) => this.key(event));

@@ -23,7 +23,7 @@ async function start() {
   makeSlices(data);
   const viewer = makeViewer(viewerHost, data);
   if (viewer) linkWorstPlaces(data, viewer);
-  else say(viewerHost, 'This browser has no WebGL, which the 3-D view needs: these are still pictures of the last step.');
+  else say(viewerHost, 'This browser has no WebGL, which the 3-D view needs: these are still pictures.');
   document.documentElement.dataset.ready = viewer ? 'all' : 'no-webgl';
 }
 

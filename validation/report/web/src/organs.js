@@ -66,7 +66,7 @@ export class Organs {
     this.view = data.model.view;
     this.names = data.model.organs;
     this.cache = new Map();
-    this.truth = this.names.map((organ, o) => this.surface(`truth/${o}`, organ));
+    this.truth = this.names.map((organ, o) => this.surface(`truth/${o}`, organ, this.view.truth_nodes[o]));
   }
 
   once(key, make) {
@@ -74,16 +74,15 @@ export class Organs {
     return this.cache.get(key);
   }
 
-  surface(name, organ) {
+  surface(name, organ, nNodes) {
     return this.once(name, () => {
-      const nodes = 1 + Math.max(...unpackIndices(this.data.part(`${name}/wall`)), ...unpackIndices(this.data.part(`${name}/caps`)));
-      const frames = unpackPositions(this.data.part(name), nodes, this.view.quantum_mm);
+      const frames = unpackPositions(this.data.part(name), nNodes, this.view.quantum_mm);
       return new Surface(this.data, name, frames, organ, this.clipping);
     });
   }
 
   estimate(condition) {
-    return this.names.map((organ, o) => this.surface(`estimate/${condition}/${o}`, organ));
+    return this.names.map((organ, o) => this.surface(`estimate/${condition}/${o}`, organ, this.view.estimate_nodes[condition][o]));
   }
 
   /** Errors of the nodes of an organ at a step, mm; back: of the estimate's nodes. */
