@@ -205,10 +205,10 @@ std::string missed_html(const runner::Evaluation &evaluation)
     if (slice.sample == 0)
       rows.push_back(
           {slice.condition, slice.organ, std::to_string(slice.slice_index), fmt::format("{:.1f}", slice.truth_length)});
-  return fmt::format(
-             "<p>{} slices (all runs) meet an organ of the truth but not the registered one: no distance exists, "
-             "they are missing from the curves. Those of the nominal run:</p>\n",
-             evaluation.missed_slices.size()) +
+  return fmt::format("<p>Slices that meet an organ of the truth but not the registered one, over all runs: {}. No "
+                     "distance exists "
+                     "there, they are missing from the curves. Those of the nominal runs:</p>\n",
+                     evaluation.missed_slices.size()) +
          table({"Condition", "organ", "slice", "truth's contour (mm)"}, rows);
 }
 

@@ -29,8 +29,10 @@ std::string runs_text(const runner::Evaluation &evaluation)
     if (randomised.contains(condition))
       text +=
           (text.empty() ? "" : ", ") + condition + (alike ? "" : fmt::format(" (1 + {} runs)", randomised[condition]));
-  return alike ? fmt::format("{}; {} one nominal and {} randomised runs", text, randomised.size() > 1 ? "each" : "in",
-                             first)
+  if (alike && first == 0)
+    return text + "; the nominal run alone";
+  return alike ? fmt::format("{}; one nominal and {} randomised runs{}", text, first,
+                             randomised.size() > 1 ? " each" : "")
                : text;
 }
 } // namespace
