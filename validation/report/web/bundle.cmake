@@ -16,8 +16,10 @@ add_custom_command(OUTPUT ${web_modules}/.package-lock.json
   VERBATIM)
 
 set(web_sources
+  src/chart_data.js
   src/charts.js
   src/colour_map.js
+  src/dom.js
   src/downloads.js
   src/main.js
   src/organs.js
@@ -26,6 +28,7 @@ set(web_sources
   src/slices.js
   src/surroundings.js
   src/viewer.js
+  src/viewer_panel.js
   src/worst.js)
 list(TRANSFORM web_sources PREPEND ${web_folder}/)
 add_custom_command(OUTPUT ${web_bundle}

@@ -1,15 +1,13 @@
 // Puts life into a page that is whole without it.
 import { makeCharts } from './charts.js';
+import { element } from './dom.js';
 import { readPayload } from './payload.js';
 import { makeSlices } from './slices.js';
 import { makeViewer } from './viewer.js';
 import { linkWorstPlaces } from './worst.js';
 
 function say(host, text) {
-  const note = document.createElement('p');
-  note.className = 'note';
-  note.textContent = text;
-  host.prepend(note);
+  host.prepend(element('p', { className: 'note', textContent: text }));
 }
 
 async function start() {

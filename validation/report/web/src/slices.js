@@ -1,12 +1,6 @@
 // One slice large, with a slider and a choice of condition.
+import { element, written } from './dom.js';
 import { readCsv } from './payload.js';
-import { written } from './charts.js';
-
-const element = (name, properties = {}, ...children) => {
-  const node = Object.assign(document.createElement(name), properties);
-  node.append(...children);
-  return node;
-};
 
 export function makeSlices(data) {
   const host = document.getElementById('slice-view');

@@ -1,17 +1,12 @@
 // The 3-D view: truth and estimate coloured by the distance between them, at every step.
 import { AmbientLight, DirectionalLight, PerspectiveCamera, Plane, Raycaster, Scene, Spherical, Vector2, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { gradient } from './colour_map.js';
+import { element } from './dom.js';
 import { Organs } from './organs.js';
 import { Surroundings } from './surroundings.js';
+import { ViewerPanel } from './viewer_panel.js';
 
 const directions = { oblique: [0.72, -0.85, 0.42], left: [1, 0, 0], front: [0, -1, 0.0001], above: [0, -0.0001, 1] };
-
-const element = (name, properties = {}, ...children) => {
-  const node = Object.assign(document.createElement(name), properties);
-  node.append(...children);
-  return node;
-};
 
 function hasWebGL() {
   try {
@@ -63,12 +58,13 @@ class Viewer {
 
   makePage() {
     const { canvas } = this;
+    this.panel = new ViewerPanel(this);
     this.readOut = element('output', { className: 'read-out' });
     this.host.append(
       element('p', { className: 'hint', textContent: 'Drag, or focus and use the arrow keys, to turn; wheel, + and − to come closer once it has focus.' }),
       element('div', { className: 'viewer' },
-        element('div', { className: 'stage' }, canvas, this.legend(), this.readOut),
-        element('div', { className: 'panel' }, this.stepControl(), ...this.choices(), this.organBoxes(), this.thingBoxes(), this.viewButtons())));
+        element('div', { className: 'stage' }, canvas, this.panel.legend, this.readOut),
+        this.panel.element));
     const pictures = document.getElementById('pictures');
     const closed = element('details', {}, element('summary', { textContent: 'Still pictures' }));
     pictures.replaceWith(closed);
@@ -81,80 +77,6 @@ class Viewer {
     canvas.setAttribute('role', 'img');
     canvas.setAttribute('aria-label', 'Organs in three dimensions, coloured by error');
     return canvas;
-  }
-
-  legend() {
-    this.ticks = element('div', { className: 'ticks' });
-    this.legendTitle = element('div', { className: 'legend-title' });
-    const bar = element('div', { className: 'colour-bar' });
-    bar.style.background = gradient;
-    this.legendBox = element('div', { className: 'colour-legend' }, this.legendTitle, bar, this.ticks);
-    return this.legendBox;
-  }
-
-  stepControl() {
-    const { steps } = this.data.model;
-    this.slider = element('input', { type: 'range', min: 0, max: steps, value: this.state.step, id: 'step-slider' });
-    this.slider.setAttribute('aria-label', 'registration step');
-    this.stepText = element('output');
-    this.slider.addEventListener('input', () => this.set({ step: Number(this.slider.value) }));
-    this.play = element('button', { type: 'button', textContent: '▶ Play' });
-    this.play.addEventListener('click', () => this.togglePlay());
-    return element('div', { className: 'step-control' }, element('label', {}, 'Step ', this.slider), this.stepText, this.play);
-  }
-
-  choice(label, options, key, change = (value) => value) {
-    const select = element('select', {}, ...options.map(([value, text]) => element('option', { value, textContent: text })));
-    select.value = String(this.state[key]);
-    select.addEventListener('change', () => this.set({ [key]: change(select.value) }));
-    (this.selects ??= {})[key] = select;
-    return element('label', {}, `${label} `, select);
-  }
-
-  choices() {
-    return [
-      this.choice('Show', [['truth', 'truth'], ['estimate', 'estimate'], ['both', 'truth and estimate']], 'shown'),
-      this.choice('Condition', this.conditions.map(({ name }) => [name, name]), 'condition'),
-      this.choice('Colour', [['false', 'error'], ['true', 'organ']], 'byOrgan', (value) => value === 'true'),
-      this.choice('Scale', [['1', '0 to 1 mm'], ['2', '0 to 2 mm'], ['4', '0 to 4 mm (paper)'], ['10', '0 to 10 mm']], 'scale', Number),
-    ];
-  }
-
-  boxes(title, entries) {
-    const box = element('fieldset', {}, element('legend', { textContent: title }));
-    for (const [text, checked, change] of entries) {
-      const input = element('input', { type: 'checkbox', checked });
-      input.addEventListener('change', () => change(input.checked));
-      box.append(element('label', {}, input, ` ${text}`));
-    }
-    return box;
-  }
-
-  organBoxes() {
-    return this.boxes('Organs', this.data.model.organs.map((organ) => [organ, true, (on) => {
-      if (on) this.state.hidden.delete(organ);
-      else this.state.hidden.add(organ);
-      this.update();
-    }]));
-  }
-
-  thingBoxes() {
-    const things = [['plane', 'image plane'], ['controlPoints', 'outline points (control points)'],
-      ['attachments', "the condition's attachments"], ['bars', "the truth's ligaments and fasciae"]];
-    return this.boxes('Around them', [
-      ...things.filter(([key]) => this.surroundings.has(key)).map(([key, text]) => [text, this.state[key], (on) => this.set({ [key]: on })]),
-      ['cut open at the image plane', this.state.cut, (on) => this.set({ cut: on })],
-    ]);
-  }
-
-  viewButtons() {
-    const bar = element('div', { className: 'buttons' });
-    for (const name of Object.keys(directions)) {
-      const button = element('button', { type: 'button', textContent: name === 'oblique' ? 'Oblique' : `From ${name === 'front' ? 'the front' : name === 'left' ? 'the left' : 'above'}` });
-      button.addEventListener('click', () => this.look(name));
-      bar.append(button);
-    }
-    return bar;
   }
 
   listen() {
@@ -192,24 +114,13 @@ class Viewer {
     });
     if (this.drawn.length) this.scene.add(...this.drawn);
     this.surroundings.show(step, this.nominal, estimate, this.state);
-    this.write(increment);
+    this.panel.write(increment);
     this.render();
   }
 
   cutPlane() {
     const { origin, normal } = this.data.model.view.plane;
     return new Plane().setFromNormalAndCoplanarPoint(new Vector3(...normal).negate(), new Vector3(...origin));
-  }
-
-  write(increment) {
-    const { step, scale, shown, byOrgan } = this.state;
-    const { steps } = this.data.model;
-    this.slider.value = step;
-    this.stepText.textContent = step === 0 ? 'at rest' : `${step} of ${steps}, position ${increment}`;
-    this.slider.setAttribute('aria-valuetext', this.stepText.textContent);
-    this.legendBox.hidden = byOrgan || step === 0;
-    this.legendTitle.textContent = shown === 'estimate' ? 'distance to the truth (mm)' : 'distance to the estimate (mm)';
-    this.ticks.replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map((share) => element('span', { textContent: `${share === 1 ? '≥ ' : ''}${share * scale}` })));
   }
 
   look(name) {
@@ -227,8 +138,7 @@ class Viewer {
     const mark = this.surroundings.mark;
     mark.position.set(...place.position_mm);
     mark.visible = true;
-    this.selects.condition.value = place.condition;
-    this.state.hidden.delete(place.organ);
+    this.panel.choose(place.condition, place.organ);
     const offset = this.camera.position.clone().sub(this.controls.target);
     this.controls.target.copy(mark.position);
     const side = new Vector3(...this.data.model.view.plane.normal).multiplyScalar(place.offset_mm >= 0 ? 1 : -1);
@@ -289,7 +199,7 @@ class Viewer {
         if (this.state.step >= this.data.model.steps) this.togglePlay();
       }, 120);
     }
-    this.play.textContent = this.timer ? '❚❚ Pause' : '▶ Play';
+    this.panel.writePlaying(Boolean(this.timer));
   }
 
   resize() {
