@@ -195,6 +195,19 @@ test('the CSV buttons save the files', async () => {
   });
 });
 
+test('the figure of a metric is saved with the numbers of summary.json', async () => {
+  await withPage(report, {}, async ({ page }) => {
+    await page.locator('[data-chart=metric] select').first().selectOption('Dice');
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Download metric.csv' }).click()]);
+    const rows = csvOf(await download.path()).filter((row) => Number(row.step) === summary.n_steps);
+    for (const [condition, perOrgan] of Object.entries(summary.metrics_at_last_step))
+      for (const organ of organs) {
+        const row = rows.find((other) => other.condition === condition && other.organ === organ);
+        assert.deepEqual([Number(row.mean), Number(row.sd), Number(row.n_runs)], [perOrgan[organ].dice.mean, perOrgan[organ].dice.sd, perOrgan[organ].dice.n_runs]);
+      }
+  });
+});
+
 for (const width of [1280, 390])
   for (const javaScript of [true, false])
     test(`nothing is wider than the window at ${width} pixels, ${javaScript ? 'with' : 'without'} script`, async () => {

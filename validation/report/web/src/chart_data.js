@@ -49,7 +49,8 @@ const metricNames = {
   truth_rotation_rad: 'rotation of the truth (rad)',
 };
 
-/** What each chart of the page shows. `choices`: what the reader can choose, name to curves. */
+/** What each chart of the page shows. `choices`: what the reader can choose, name to curves. `file`: what its button saves; else
+ *  the curves that are shown, under a name that begins with `saves`. */
 export function descriptions(data) {
   const { model } = data;
   const summary = JSON.parse(data.text('summary.json'));
@@ -70,11 +71,11 @@ export function descriptions(data) {
       choices: { 'mean contour error (mm)': curvesOf(readCsv(data.text('curves_by_slice.csv')), 'slice_index', slices) },
     },
     metric: {
-      x: positions, xLabel: 'registration step', at: (x) => `step ${x}`, keepStill: true, anyRange: true,
+      x: positions, xLabel: 'registration step', xName: 'step', saves: 'metric', at: (x) => `step ${x}`, keepStill: true, anyRange: true,
       choices: Object.fromEntries(Object.entries(metricNames).map(([figure, name]) => [name, figureCurves(model, figure)])),
     },
     distance: {
-      x: offsets, xLabel: 'offset from the image plane (mm, left positive)', unit: 'mm', start: 0,
+      x: offsets, xLabel: 'offset from the image plane (mm, left positive)', xName: 'offset_mm', saves: 'distance', unit: 'mm', start: 0,
       at: (x) => `${x > 0 ? '+' : ''}${x} mm`,
       choices: {
         'mean surface error (mm)': distanceCurves(summary, 'surface', offsets, pitch),
@@ -91,4 +92,15 @@ function figureCurves(model, figure) {
     for (const [organ, figures] of Object.entries(organs)) curves[condition][organ] = figures[figure];
   }
   return curves;
+}
+
+/** A chart's curves as CSV: condition,organ,x,n_runs,mean,sd; no row where there is no value. */
+export function csvOf(curves, x, xName) {
+  const lines = [`condition,organ,${xName},n_runs,mean,sd`];
+  for (const [condition, organs] of Object.entries(curves))
+    for (const [organ, { mean, sd, n_runs }] of Object.entries(organs))
+      x.forEach((at, i) => {
+        if (mean[i] !== null) lines.push([condition, organ, at, n_runs[i], mean[i], sd[i]].join(','));
+      });
+  return `${lines.join('\n')}\n`;
 }

@@ -1,6 +1,6 @@
 // Charts with values at the cursor, in place of the still figures.
 import uPlot from 'uplot';
-import { descriptions } from './chart_data.js';
+import { csvOf, descriptions } from './chart_data.js';
 import { element, written } from './dom.js';
 import { downloadButton } from './downloads.js';
 
@@ -42,8 +42,13 @@ class Chart {
     if (Object.keys(choices).length > 1) bar.append(this.choiceSelect(Object.keys(choices)));
     bar.append(this.scaleSelect());
     if (this.conditions.length > this.shown.length) bar.append(this.conditionBoxes());
-    if (file) bar.append(downloadButton(file, 'text/csv', () => this.data.part(file)));
+    bar.append(file ? downloadButton(file, 'text/csv', () => this.data.part(file)) : this.figureButton());
     return bar;
+  }
+
+  figureButton() {
+    const { x, xName, saves, choices } = this.description;
+    return downloadButton(`${saves}.csv`, 'text/csv', () => csvOf(choices[this.choice], x, xName));
   }
 
   choiceSelect(names) {
