@@ -8,13 +8,14 @@ const softwareGL = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 const noGL = ['--disable-gpu', '--disable-3d-apis'];
 
 /** The page of `file` with everything it says and asks for; `use` gets it, and it is closed afterwards. */
-export async function withPage(file, { width = 1280, javaScript = true, webGL = true } = {}, use) {
+export async function withPage(file, { width = 1280, javaScript = true, webGL = true, colorScheme = 'light' } = {}, use) {
   const browser = await chromium.launch({
     executablePath: process.env.PELVIREG_CHROMIUM,
     args: ['--no-sandbox', ...(webGL ? softwareGL : noGL)], // tests may run as root, where there is no sandbox
   });
   try {
-    const context = await browser.newContext({ viewport: { width, height: 900 }, javaScriptEnabled: javaScript, acceptDownloads: true, reducedMotion: 'reduce' });
+    const context = await browser.newContext({ viewport: { width, height: 900 }, javaScriptEnabled: javaScript, acceptDownloads: true, reducedMotion: 'reduce',
+      colorScheme });
     const page = await context.newPage();
     const said = [], requests = [], dialogs = [];
     page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !fromDriver(message)) said.push(message.text()); });

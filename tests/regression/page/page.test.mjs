@@ -237,31 +237,32 @@ test('without WebGL it says so and shows the still pictures', async () => {
   });
 });
 
-test('text stands out from its background (WCAG 2.1, 1.4.3: 4.5 to 1)', async () => {
-  await withPage(report, {}, async ({ page }) => {
-    const faint = await page.evaluate(() => {
-      const channels = (colour) => colour.match(/[\d.]+/g).map(Number);
-      const linear = (value) => (value / 255 <= 0.04045 ? value / 255 / 12.92 : ((value / 255 + 0.055) / 1.055) ** 2.4);
-      const luminance = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
-      const backgroundOf = (node) => {
-        for (; node; node = node.parentElement) {
-          const [r, g, b, alpha = 1] = channels(getComputedStyle(node).backgroundColor);
-          if (alpha > 0.5) return [r, g, b];
+for (const colorScheme of ['light', 'dark'])
+  test(`text stands out from its background in ${colorScheme} (WCAG 2.1, 1.4.3: 4.5 to 1)`, async () => {
+    await withPage(report, { colorScheme }, async ({ page }) => {
+      const faint = await page.evaluate(() => {
+        const channels = (colour) => colour.match(/[\d.]+/g).map(Number);
+        const linear = (value) => (value / 255 <= 0.04045 ? value / 255 / 12.92 : ((value / 255 + 0.055) / 1.055) ** 2.4);
+        const luminance = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
+        const backgroundOf = (node) => {
+          for (; node; node = node.parentElement) {
+            const [r, g, b, alpha = 1] = channels(getComputedStyle(node).backgroundColor);
+            if (alpha > 0.5) return [r, g, b];
+          }
+          return [255, 255, 255];
+        };
+        const found = [];
+        for (const node of document.querySelectorAll('main *')) {
+          if (node.closest('svg') || !node.checkVisibility() || ![...node.childNodes].some((child) => child.nodeType === 3 && child.data.trim())) continue;
+          const [a, b] = [luminance(channels(getComputedStyle(node).color)), luminance(backgroundOf(node))].sort((x, y) => y - x);
+          const ratio = (a + 0.05) / (b + 0.05);
+          if (!(ratio >= 4.5)) found.push(`${node.className || node.tagName}: ${ratio.toFixed(2)}`);
         }
-        return [255, 255, 255];
-      };
-      const found = [];
-      for (const node of document.querySelectorAll('main *')) {
-        if (node.closest('svg') || !node.checkVisibility() || ![...node.childNodes].some((child) => child.nodeType === 3 && child.data.trim())) continue;
-        const [a, b] = [luminance(channels(getComputedStyle(node).color)), luminance(backgroundOf(node))].sort((x, y) => y - x);
-        const ratio = (a + 0.05) / (b + 0.05);
-        if (!(ratio >= 4.5)) found.push(`${node.className || node.tagName}: ${ratio.toFixed(2)}`);
-      }
-      return found;
+        return found;
+      });
+      assert.deepEqual([...new Set(faint)], []);
     });
-    assert.deepEqual([...new Set(faint)], []);
   });
-});
 
 test('a hostile case name is text and nothing else', async () => {
   await withPage(hostile, {}, async ({ page, said, requests, dialogs }) => {
