@@ -93,7 +93,7 @@ std::vector<std::vector<std::string>> floor_rows(const runner::Evaluation &evalu
   if (!truth.discretisation_error)
     return rows;
   const dataset::Points4 &mean = truth.discretisation_error->mean_by_organ;
-  rows.push_back({"the truth's own error bar, mean"});
+  rows.push_back({"the truth's own error bar (displacement), mean"});
   for (Eigen::Index organ = 0; organ < mean.cols(); ++organ)
     rows.back().push_back(fmt::format("{:.2f}", mean(mean.rows() - 1, organ)));
   return rows;
@@ -111,6 +111,24 @@ std::string error_table_html(const runner::Evaluation &evaluation, const dataset
   for (const auto &row : floor_rows(evaluation, truth))
     rows.push_back(row);
   return table(heading, rows) + (others.empty() ? "" : details("Other conditions", table(heading, others)));
+}
+
+std::string error_bar_sentence(const runner::Evaluation &evaluation, const dataset::Truth &truth)
+{
+  if (!truth.discretisation_error || !runner::has_condition(evaluation, "full"))
+    return "";
+  const dataset::Points4 &mean = truth.discretisation_error->mean_by_organ;
+  std::string organs;
+  for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
+    if (mean(mean.rows() - 1, static_cast<Eigen::Index>(organ)) >=
+        runner::error_by_step(evaluation, "full", organ_names[organ]).back().mean)
+      organs += (organs.empty() ? "" : ", ") + organ_names[organ];
+  if (organs.empty())
+    return "";
+  return "<p>The truth's own error bar is not smaller than the error with all constraints for: <b>" + organs +
+         "</b>. There the error is one against the motion of this mesh, not against the exact motion of the "
+         "reference's "
+         "model.</p>\n";
 }
 
 std::string claims_html(const std::vector<runner::ClaimVerdict> &claims)

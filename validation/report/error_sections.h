@@ -20,6 +20,9 @@ std::string verdict_sentence(const std::vector<runner::ClaimVerdict> &claims);
 /// truth itself does not know.
 std::string error_table_html(const runner::Evaluation &evaluation, const dataset::Truth &truth);
 
+/// For which organs the truth's own error bar is not smaller than what is measured against it; empty when for none.
+std::string error_bar_sentence(const runner::Evaluation &evaluation, const dataset::Truth &truth);
+
 /// One row a claim or aim, with its verdict.
 std::string claims_html(const std::vector<runner::ClaimVerdict> &claims);
 std::string aims_html(const std::vector<runner::Aim> &aims);

@@ -137,8 +137,8 @@ std::string report_html(const ReportInputs &inputs)
   html += page_links() + verdict_sentence(runner::assess_claims(evaluation, inputs.timings)) +
           "<div class=\"first\">\n<div>" + error_table_html(evaluation, inputs.truth) +
           "<p>The paper's bound for every organ and step: below 4 mm. ± is the standard deviation between "
-          "runs.</p></div>\n" +
-          facts_html(evaluation) + "</div>\n";
+          "runs.</p>\n" +
+          error_bar_sentence(evaluation, inputs.truth) + "</div>\n" + facts_html(evaluation) + "</div>\n";
   html += error_sections(contents) + space_sections(contents) + further_sections(contents) + footer(inputs);
   html += "</main>\n<script type=\"application/octet-stream\" id=\"data\">" +
           report_data(inputs, contents.truth, contents.conditions, contents.slices, contents.worst) + "</script>\n";

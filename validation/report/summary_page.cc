@@ -24,6 +24,8 @@ h2 { font-size: 9.6pt; margin: 0 0 .5mm; }
 p { margin: 0; max-width: none; }
 .lead { font-size: 10.5pt; }
 table, .facts { font-size: 7.4pt; }
+.pair table { font-size: 6.9pt; }
+.pair th, .pair td { padding: .35mm 1.2mm; }
 td, tbody th { white-space: nowrap; }
 .claims td { white-space: normal !important; }
 th, td { padding: .35mm 1.6mm; }
@@ -36,7 +38,7 @@ th, td { padding: .35mm 1.6mm; }
 .legend svg { max-width: 75mm; }
 .scroll table { width: 100%; }
 details { display: none; }
-.pair { display: grid; grid-template-columns: 1fr 46mm; gap: 0 5mm; align-items: start; }
+.pair { display: grid; grid-template-columns: minmax(0, 1fr) 38mm; gap: 0 4mm; align-items: start; }
 .low { font-size: 6.8pt; color: #39414a; }
 .low p { margin-bottom: .8mm; overflow-wrap: anywhere; }
 </style>
@@ -71,11 +73,7 @@ std::string image_plane(const ReportInputs &inputs)
 std::string notes(const ReportInputs &inputs)
 {
   std::string html = "<div class=\"low\">";
-  if (inputs.truth.discretisation_error)
-    html += fmt::format(
-        "<p><b>The truth itself</b>: error bar of its mesh, displacement, over all increments: mean at most "
-        "{:.2f} mm, largest {:.2f} mm.</p>",
-        inputs.truth.discretisation_error->mean.maxCoeff(), inputs.truth.discretisation_error->max.maxCoeff());
+  html += error_bar_sentence(inputs.evaluation, inputs.truth);
   html +=
       "<p><b>Surface error</b>: distance from fixed material points of the truth's outer surface to the closest "
       "triangle "
