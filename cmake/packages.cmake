@@ -16,6 +16,13 @@ find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(ZLIB REQUIRED)
+find_program(NODE node)
+find_program(NPM npm)
+if(NOT NODE OR NOT NPM)
+  message(FATAL_ERROR "node and npm, which bundle the script of the report's page, are not in PATH; install the Debian "
+                      "packages nodejs and npm (`./dev packages` does)")
+endif()
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel FiltersCore IOGeometry IOHDF IOXML IOImage FiltersGeneral FiltersSources
              RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation InteractionStyle)
 

@@ -42,8 +42,10 @@ private:
 /// errors_by_*.csv, curves_by_*.csv, summary.json, error_table.txt, condition_table.txt, from every estimate in the
 /// directory
 void make_errors(ResultDirectory &directory, Judge &judge);
-/// report.html, pictures/*.png
+/// report.html, pictures/*.png, figures/*.svg
 void make_report(ResultDirectory &directory, Judge &judge);
+/// summary.pdf. Throws InputError when there is no Chromium to print it.
+void make_summary_pdf(ResultDirectory &directory, Judge &judge);
 
 /// Step times of the estimates in the directory, as their register stages noted them.
 std::vector<runner::StepTiming> recorded_timings(const ResultDirectory &directory);

@@ -118,7 +118,7 @@ void Scene::add_scale(const std::string &title, double maximum)
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(viridis_to(maximum));
   bar->SetTitle(title.c_str());
-  bar->SetNumberOfLabels(7);
+  bar->SetNumberOfLabels(5);
   bar->SetLabelFormat("%.0f");
   bar->UnconstrainedFontSizeOn();
   for (vtkTextProperty *text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()})
