@@ -48,11 +48,11 @@ void fill(const std::vector<RegionTriangle> &triangles, const std::map<int, int>
   }
 }
 
-template <class Nodes>
-Eigen::VectorXd shares_at(const Eigen::VectorXd &share, const Nodes &nodes, std::int32_t region)
+template <class Nodes> Eigen::VectorXd shares_at(const Eigen::VectorXd &share, const Nodes &nodes, std::int32_t region)
 {
   if (share.size() == 0)
-    return Eigen::VectorXd::Constant(nodes.size(), region == static_cast<std::int32_t>(dataset::SurfaceRegion::peritoneal));
+    return Eigen::VectorXd::Constant(nodes.size(),
+                                     region == static_cast<std::int32_t>(dataset::SurfaceRegion::peritoneal));
   return share(nodes.transpose());
 }
 } // namespace

@@ -64,7 +64,8 @@ double swept_rate(const Eigen::Matrix3Xd &positions, const Eigen::Matrix3Xd &vel
 {
   double rate = 0;
   for (const FacePoint &q : face_quadrature(static_cast<int>(positions.cols())))
-    rate += q.weight * q.value.dot(shares) * (velocities * q.value).dot(Eigen::Vector3d(positions * q.d_xi).cross(positions * q.d_eta));
+    rate += q.weight * q.value.dot(shares) *
+            (velocities * q.value).dot(Eigen::Vector3d(positions * q.d_xi).cross(positions * q.d_eta));
   return rate;
 }
 } // namespace pelvireg::reference_fe

@@ -7,8 +7,9 @@
 namespace pelvireg::reference_fe
 {
 /// Share s of the pressure p (one global unknown, MPa) on the current outer faces, against their outward normal:
-/// residual of node i = p int s N_i (x,xi cross x,eta) d(xi, eta), s carried by the material. Exact tangent, with the column of p; the row of p is
-/// left to the term that fixes the load factor (DisplacementProbe). In general not symmetric (fixed rims).
+/// residual of node i = p int s N_i (x,xi cross x,eta) d(xi, eta), s carried by the material. Exact tangent, with the
+/// column of p; the row of p is left to the term that fixes the load factor (DisplacementProbe). In general not
+/// symmetric (fixed rims).
 class FollowerPressure : public Term
 {
 public:
@@ -32,7 +33,7 @@ private:
   int pressure_;
 };
 
-/// Rate at which a face sweeps volume outward, int s v . (x,xi cross x,eta): nodal positions (mm) and velocities (mm/s),
-/// a column a node, and shares s; mm^3/s.
+/// Rate at which a face sweeps volume outward, int s v . (x,xi cross x,eta): nodal positions (mm) and velocities
+/// (mm/s), a column a node, and shares s; mm^3/s.
 double swept_rate(const Eigen::Matrix3Xd &positions, const Eigen::Matrix3Xd &velocities, const Eigen::VectorXd &shares);
 } // namespace pelvireg::reference_fe

@@ -151,8 +151,8 @@ BarEnd BarSurface::closest(const Vector3d &point) const
       best = &triangle;
     }
   }
-  const Vector3d weights = barycentric(position, sample((*best)[0]).position, sample((*best)[1]).position,
-                                       sample((*best)[2]).position);
+  const Vector3d weights =
+      barycentric(position, sample((*best)[0]).position, sample((*best)[1]).position, sample((*best)[2]).position);
   Shares shares;
   for (int k = 0; k < 3; ++k)
     for (const auto &[node, share] : sample((*best)[k]).nodes)

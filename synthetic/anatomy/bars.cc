@@ -94,7 +94,8 @@ Eigen::VectorXd nodal_areas(const dataset::ReferenceShell &shell)
 {
   // Place of node k of a VTK_BIQUADRATIC_QUAD in a 3 x 3 grid, and derivatives of quadratics at -1, 0, 1.
   constexpr int column[9] = {0, 2, 2, 0, 1, 2, 1, 0, 1}, row[9] = {0, 0, 2, 2, 0, 1, 2, 1, 1};
-  constexpr double slope[3][3] = {{-1.5, 2, -0.5}, {-0.5, 0, 0.5}, {0.5, -2, 1.5}}, weight[3] = {1. / 3, 4. / 3, 1. / 3};
+  constexpr double slope[3][3] = {{-1.5, 2, -0.5}, {-0.5, 0, 0.5}, {0.5, -2, 1.5}},
+                   weight[3] = {1. / 3, 4. / 3, 1. / 3};
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(shell.midsurface.rows());
   for (Eigen::Index c = 0; c < shell.cells.rows(); ++c)
     for (int at = 0; at < 9; ++at)
@@ -183,7 +184,8 @@ void add_hiatus(const Parameters &p, const ReferenceModel &model, std::vector<Re
     const BarSurface surface(model, organ);
     for (int i = 0; i < hiatus_stations; ++i)
     {
-      const auto station = [&](int k) { return stations[static_cast<std::size_t>((k + hiatus_stations) % hiatus_stations)]; };
+      const auto station = [&](int k)
+      { return stations[static_cast<std::size_t>((k + hiatus_stations) % hiatus_stations)]; };
       const double length = ((station(i + 1) - station(i)).norm() + (station(i) - station(i - 1)).norm()) / 2;
       const BarEnd from = closest_on_loop(floor->midsurface, *rim, station(i)), to = surface.closest(station(i));
       const double reach = (to.position - station(i)).norm();

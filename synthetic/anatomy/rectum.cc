@@ -37,9 +37,9 @@ std::vector<Chart> rectum_charts(const RectumShape &shape, double size)
                         normal_by_differences(map, 2 * std::numbers::pi * a, b * length, 1e-5, 1e-4)};
   };
   // Peritoneum covers the front, and leaves the sides between 30 degrees before and behind them.
-  carry_pressure(chart, [=](const SurfacePoint &p)
-                 { return fade_in(p.position[2], shape.peritoneal_above, shape.peritoneal_fade) *
-                          fade_in(-p.normal[1], 0, 1); });
+  carry_pressure(
+      chart, [=](const SurfacePoint &p)
+      { return fade_in(p.position[2], shape.peritoneal_above, shape.peritoneal_fade) * fade_in(-p.normal[1], 0, 1); });
   return {chart};
 }
 } // namespace pelvireg::anatomy

@@ -46,7 +46,7 @@ struct ReferenceShell
   /// Share of the abdominal pressure at each node, 0 … 1, interpolated over the cells as positions are. Empty: 1 on the
   /// cells of region peritoneal, 0 elsewhere.
   Eigen::VectorXd pressure_share;
-  Integers fixed_nodes;      ///< nodes whose mid-surface displacement is zero
+  Integers fixed_nodes; ///< nodes whose mid-surface displacement is zero
   /// Rims of the open ends, each an ordered closed loop of node indices (corner and mid-side nodes alternate).
   /// Empty for a closed shell. The cavity of the shell is bounded by zeta = -1 and by flat caps over these rims.
   std::vector<Integers> rims;
@@ -57,14 +57,14 @@ struct ReferenceShell
 /// A solid of the reference: quadratic tetrahedra.
 struct ReferenceSolid
 {
-  std::string name;     ///< "uterus"
-  std::string material; ///< key into ReferenceModel::materials
-  Points points;        ///< n x 3, mm
-  Tets10 cells;         ///< m x 10
-  Triangles6 faces;     ///< k x 6, closed outward boundary
-  Integers region;      ///< k, SurfaceRegion of each boundary face
+  std::string name;               ///< "uterus"
+  std::string material;           ///< key into ReferenceModel::materials
+  Points points;                  ///< n x 3, mm
+  Tets10 cells;                   ///< m x 10
+  Triangles6 faces;               ///< k x 6, closed outward boundary
+  Integers region;                ///< k, SurfaceRegion of each boundary face
   Eigen::VectorXd pressure_share; ///< n, as of a shell; only the boundary's count
-  Integers fixed_nodes; ///< may be empty
+  Integers fixed_nodes;           ///< may be empty
 };
 
 /// One straight bar from a node of a part to a fixed point in space, or to a node of another part.
@@ -79,9 +79,9 @@ struct ReferenceTruss
   /// mm, from node_b to where the bar ends at rest; the end moves as the node does. A bar between points that are no
   /// nodes is made of parallel ones.
   Eigen::Vector3d offset_b = Eigen::Vector3d::Zero();
-  double area = 0;                                       ///< mm^2
-  std::string material;                                  ///< key into ReferenceModel::materials
-  bool tension_only = false;                             ///< slack in compression
+  double area = 0;           ///< mm^2
+  std::string material;      ///< key into ReferenceModel::materials
+  bool tension_only = false; ///< slack in compression
 };
 
 /// What the reference solver needs beside the parts.

@@ -215,7 +215,8 @@ std::vector<ReferenceTruss> read_trusses(const GroupReader &group)
   const std::vector<std::int32_t> tension_only = group.integers("tension_only", count);
   const std::vector<double> areas = group.numbers("area", count);
   const Points fixed_points = group.array<Points>("fixed_point", count);
-  const Points offsets = group.has("offset_b") ? group.array<Points>("offset_b", count) : Points(Points::Zero(count, 3));
+  const Points offsets =
+      group.has("offset_b") ? group.array<Points>("offset_b", count) : Points(Points::Zero(count, 3));
   std::vector<ReferenceTruss> trusses;
   for (std::size_t i = 0; i < groups.size(); ++i)
     trusses.push_back({.group = groups[i],
