@@ -76,12 +76,12 @@ struct ReferenceTruss
   std::string part_b; ///< empty: the bar ends at `fixed_point`
   std::int32_t node_b = -1;
   Eigen::Vector3d fixed_point = Eigen::Vector3d::Zero(); ///< mm; used when part_b is empty
+  double area = 0;                                       ///< mm^2
+  std::string material;                                  ///< key into ReferenceModel::materials
+  bool tension_only = false;                             ///< slack in compression
   /// mm, from node_b to where the bar ends at rest; the end moves as the node does. A bar between points that are no
   /// nodes is made of parallel ones.
   Eigen::Vector3d offset_b = Eigen::Vector3d::Zero();
-  double area = 0;           ///< mm^2
-  std::string material;      ///< key into ReferenceModel::materials
-  bool tension_only = false; ///< slack in compression
 };
 
 /// What the reference solver needs beside the parts.

@@ -225,10 +225,10 @@ std::vector<ReferenceTruss> read_trusses(const GroupReader &group)
                        .part_b = parts_b[i],
                        .node_b = nodes_b[i],
                        .fixed_point = fixed_points.row(static_cast<Eigen::Index>(i)),
-                       .offset_b = offsets.row(static_cast<Eigen::Index>(i)),
                        .area = areas[i],
                        .material = materials[i],
-                       .tension_only = tension_only[i] != 0});
+                       .tension_only = tension_only[i] != 0,
+                       .offset_b = offsets.row(static_cast<Eigen::Index>(i))});
   return trusses;
 }
 
