@@ -63,6 +63,9 @@ TEST(AnatomyFile, ComesBackExactly)
   EXPECT_EQ(shell.name, "vagina");
   EXPECT_EQ(shell.midsurface, saved.reference.shells[0].midsurface);
   EXPECT_EQ(shell.cells, saved.reference.shells[0].cells);
+  EXPECT_EQ(shell.pressure_share, saved.reference.shells[0].pressure_share);
+  EXPECT_EQ(loaded.reference.solids.at(0).pressure_share.size(), 0) << "whole faces";
+  EXPECT_EQ(loaded.reference.trusses.at(1).offset_b, saved.reference.trusses[1].offset_b);
   EXPECT_EQ(shell.rims.at(1), saved.reference.shells[0].rims[1]);
   EXPECT_TRUE(shell.has_cavity);
   EXPECT_EQ(shell.cavity.mode, CavityMode::leak);
