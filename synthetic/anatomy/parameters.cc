@@ -228,6 +228,7 @@ void read_registration(TableReader table, Parameters &parameters)
   parameters.poisson_ratio = table.number("poisson_ratio", {0, 0.499, false});
   parameters.density = table.number("density", {0, 1e-6, true});
   parameters.time_step = table.number("time_step", {0, 10, true});
+  parameters.friction_coefficient = table.number("friction_coefficient", {0, 10, false});
   parameters.steps_per_increment = table.integer("steps_per_increment", 1, 100);
   parameters.n_control_points = table.integer("n_control_points", 10, 1000);
   if (table.has("insertion_shift"))

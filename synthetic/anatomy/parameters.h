@@ -86,7 +86,8 @@ struct Parameters
   /// mm, from where a ligament or fascia really meets its organ (left side; mirrored in x on the right) to where the
   /// registration believes it does.
   Eigen::Vector3d insertion_shift = Eigen::Vector3d::Zero();
-  double time_step = 0.02, slice_pitch = 6;
+  double time_step = 0.02, friction_coefficient = 0; ///< of the registration, s, -
+  double slice_pitch = 6;
   int n_slices_each_side = 7;
 
   double reference_size = 0, uterus_size = 0; ///< mm

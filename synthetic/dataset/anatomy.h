@@ -146,6 +146,7 @@ struct Anatomy
   int n_slices_each_side = 7;
   int registration_steps_per_increment = 3;
   double registration_time_step = 0.02; ///< s
+  double registration_friction = 0;     ///< Coulomb's coefficient between the registration's organs
   ReferenceModel reference;
   RegistrationModel registration;
 };

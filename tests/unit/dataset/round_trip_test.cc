@@ -58,6 +58,7 @@ TEST(AnatomyFile, ComesBackExactly)
   EXPECT_EQ(loaded.case_name, saved.case_name);
   EXPECT_EQ(loaded.dyn_plane.normal, saved.dyn_plane.normal);
   EXPECT_EQ(loaded.n_control_points, saved.n_control_points);
+  EXPECT_EQ(loaded.registration_friction, saved.registration_friction);
   EXPECT_EQ(loaded.control_point_spacing, saved.control_point_spacing);
   const ReferenceShell &shell = loaded.reference.shells.at(0);
   EXPECT_EQ(shell.name, "vagina");

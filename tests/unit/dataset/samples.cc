@@ -76,6 +76,7 @@ Anatomy sample_anatomy()
   anatomy.case_name = "sample";
   anatomy.dyn_plane = tilted_plane;
   anatomy.n_control_points = 64;
+  anatomy.registration_friction = 0.3;
   anatomy.control_point_spacing = 4.25;
   anatomy.reference.materials = {{"wall", {0.01, 0.02, 0.03, 1.0 / 3}}, {"ligament", {0.1, 0, 0, 2}}};
   ReferenceShell shell;
