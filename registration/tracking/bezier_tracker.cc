@@ -1,0 +1,147 @@
+#include "registration/tracking/bezier_tracker.h"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <numbers>
+
+namespace pelvireg::tracking
+{
+namespace
+{
+using Eigen::Vector2d;
+
+constexpr double largest_round_trip = 1;    // px: flow that does not come back has lost its point
+constexpr double similarity_of_lost = 0.5;  // a joint below is lost,
+constexpr double similarity_of_found = 0.6; // and found again above
+constexpr double largest_correction = 3;    // px, of a match against its prediction, unless searched for
+constexpr int search_radius = 6;            // px
+constexpr double joint_model_error = 0.2;   // px, of a match beside noise: tissue that deforms or leaves the plane
+
+/// Even-odd rule.
+bool is_inside(const PixelPoints &closed, const Vector2d &point)
+{
+  bool inside = false;
+  for (Eigen::Index i = 0, n = closed.rows(); i < n; ++i)
+  {
+    const Eigen::RowVector2d a = closed.row(i), b = closed.row((i + 1) % n);
+    if ((a.y() > point.y()) != (b.y() > point.y()) &&
+        point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      inside = !inside;
+  }
+  return inside;
+}
+
+/// Deformation of a joint's surroundings since the first frame: rotation and mean stretch of the neighbouring chord.
+Eigen::Matrix2d local_deformation(const BezierCurve &rest, const std::vector<Vector2d> &now, std::size_t joint)
+{
+  const std::size_t n = now.size(), next = (joint + 1) % n, before = (joint + n - 1) % n;
+  const Vector2d a = rest.joints[next] - rest.joints[before], b = now[next] - now[before];
+  const double squared = std::max(a.squaredNorm(), 1e-12);
+  const Vector2d turn(a.dot(b) / squared, (a.x() * b.y() - a.y() * b.x()) / squared);
+  const Vector2d rotation = turn.norm() > 1e-6 ? turn.normalized() : Vector2d(1, 0);
+  return Eigen::Matrix2d{{rotation.x(), -rotation.y()}, {rotation.y(), rotation.x()}};
+}
+} // namespace
+
+BezierTracker::Organ BezierTracker::make_organ(const InitialOutline &outline) const
+{
+  Organ organ{outline.organ, fit_bezier(outline, options_), nullptr, {}, {}};
+  organ.curve = organ.fit.curve;
+  for (const Vector2d &joint : organ.fit.curve.joints)
+  {
+    std::vector<char> inside;
+    for (const Vector2d &offset : ReferencePatch::offsets())
+      inside.push_back(is_inside(outline.points, joint + offset));
+    organ.joints.push_back({ReferencePatch(first_, joint, inside)});
+  }
+  return organ;
+}
+
+void BezierTracker::do_start(const Image &first, const std::vector<InitialOutline> &outlines)
+{
+  first_ = GreyImage(first, options_.smoothing);
+  // A Gaussian leaves 1 / (2 sqrt(pi) sigma) of white noise; one much narrower than a pixel leaves it all.
+  noise_ = noise_of(first) / std::max(1.0, 2 * std::sqrt(std::numbers::pi) * options_.smoothing);
+  tolerance_ = std::max(0.08 * contrast_of(first), 1e-9);
+  scale_ = std::make_unique<FlowScale>(first);
+  last_ = (*scale_)(first_.pixels());
+  organs_.clear();
+  for (const InitialOutline &outline : outlines)
+    organs_.push_back(make_organ(outline));
+  for (Organ &organ : organs_) // their addresses stay from here on
+    organ.border = std::make_unique<BorderFit>(first_, organ.fit, noise_, tolerance_);
+}
+
+std::vector<JointMeasurement> BezierTracker::measure(Organ &organ, const FlowPoint *predicted, const GreyImage &image,
+                                                     TrackedFrame &frame) const
+{
+  const double variance = 2 * noise_ * noise_ + 0.1 * tolerance_ * tolerance_;
+  std::vector<JointMeasurement> measured(organ.joints.size());
+  for (std::size_t i = 0; i < organ.joints.size(); ++i)
+  {
+    Joint &joint = organ.joints[i];
+    const bool is_predicted = predicted[i].found && predicted[i].round_trip < largest_round_trip && !joint.is_lost;
+    const Vector2d start = is_predicted ? predicted[i].position : organ.curve.joints[i];
+    const Eigen::Matrix2d deformation = local_deformation(organ.fit.curve, organ.curve.joints, i);
+    const PatchFinding finding = joint.is_lost ? joint.patch.search(image, start, deformation, search_radius)
+                                               : joint.patch.find(image, start, deformation);
+    const bool is_near = joint.is_lost || (finding.position - start).norm() < largest_correction;
+    const bool was_lost = joint.is_lost;
+    joint.similarity = std::max(0.0, finding.similarity);
+    joint.is_lost = !is_near || finding.similarity < (was_lost ? similarity_of_found : similarity_of_lost);
+    frame.n_lost_joints += joint.is_lost;
+    frame.n_reacquired_joints += was_lost && !joint.is_lost;
+    if (joint.is_lost)
+      continue;
+    const Eigen::Matrix2d slight = 1e-9 * (1 + finding.structure.trace()) * Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2d covariance = variance * (finding.structure + slight).inverse() +
+                                       joint_model_error * joint_model_error * Eigen::Matrix2d::Identity();
+    measured[i] = {finding.position, covariance.inverse()};
+  }
+  return measured;
+}
+
+TrackedOutline BezierTracker::outline_of(const Organ &organ, const GreyImage &image) const
+{
+  const Eigen::Index n = static_cast<Eigen::Index>(organ.fit.places.size());
+  TrackedOutline outline{organ.name, organ.fit.points_on(organ.curve), Eigen::VectorXd(n), {}};
+  for (Eigen::Index i = 0; i < n; ++i)
+  {
+    const BezierPlace &place = organ.fit.places[static_cast<std::size_t>(i)];
+    const std::size_t next = (place.segment + 1) % organ.joints.size();
+    double confidence = 0;
+    if (organ.fit.has_border[place.segment])
+      confidence = organ.border->agreement(image, organ.curve, place);
+    else
+      confidence = (1 - place.t) * organ.joints[place.segment].similarity + place.t * organ.joints[next].similarity;
+    outline.confidence[i] = std::clamp(confidence, 0.0, 1.0);
+    outline.is_lost.push_back(outline.confidence[i] < options_.lost_below);
+  }
+  return outline;
+}
+
+TrackedFrame BezierTracker::do_update(const Image &frame)
+{
+  const GreyImage image(frame, options_.smoothing);
+  FlowFrame now = (*scale_)(image.pixels());
+  std::vector<Vector2d> joints;
+  for (const Organ &organ : organs_)
+    joints.insert(joints.end(), organ.curve.joints.begin(), organ.curve.joints.end());
+  const std::vector<FlowPoint> predicted = last_.lucas_kanade(now, joints);
+
+  TrackedFrame tracked;
+  const FlowPoint *of_organ = predicted.data();
+  for (Organ &organ : organs_)
+  {
+    const std::vector<JointMeasurement> measured = measure(organ, of_organ, image, tracked);
+    of_organ += organ.joints.size();
+    organ.curve = carry(organ.curve, move_joints(organ.fit.curve.joints, organ.curve.joints, measured, {}));
+    if (std::any_of(organ.fit.has_border.begin(), organ.fit.has_border.end(), [](char has) { return has != 0; }))
+      organ.curve = organ.border->adjust(image, organ.curve, {});
+    tracked.outlines.push_back(outline_of(organ, image));
+  }
+  last_ = std::move(now);
+  return tracked;
+}
+} // namespace pelvireg::tracking

@@ -1,0 +1,109 @@
+#include "registration/tracking/patch_match.h"
+
+#include <Eigen/Dense>
+
+namespace pelvireg::tracking
+{
+namespace
+{
+constexpr int half_width = 7;       // px
+constexpr double window = 4.0;      // px, standard deviation of the Gaussian window
+constexpr double outside = 0.5;     // weight of what is not the organ's own
+constexpr double largest_step = 1.0; // px, of one iteration
+} // namespace
+
+const std::vector<Eigen::Vector2d> &ReferencePatch::offsets()
+{
+  static const std::vector<Eigen::Vector2d> all = []
+  {
+    std::vector<Eigen::Vector2d> offsets;
+    for (int y = -half_width; y <= half_width; ++y)
+      for (int x = -half_width; x <= half_width; ++x)
+        offsets.emplace_back(x, y);
+    return offsets;
+  }();
+  return all;
+}
+
+ReferencePatch::ReferencePatch(const GreyImage &first, const Eigen::Vector2d &centre,
+                               const std::vector<char> &is_inside)
+{
+  for (std::size_t k = 0; k < offsets().size(); ++k)
+  {
+    const Eigen::Vector2d &offset = offsets()[k];
+    const Eigen::Vector2d point = centre + offset;
+    const double weight = std::exp(-offset.squaredNorm() / (2 * window * window)) * (is_inside[k] ? 1 : outside);
+    values_.push_back(first(point));
+    gradients_.push_back(first.gradient(point));
+    weights_.push_back(first.contains(point) ? weight : 0);
+  }
+}
+
+double ReferencePatch::similarity(const GreyImage &image, const Eigen::Vector2d &position,
+                                  const Eigen::Matrix2d &deformation) const
+{
+  double w = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+  for (std::size_t k = 0; k < values_.size(); ++k)
+  {
+    const double here = image(position + deformation * offsets()[k]);
+    w += weights_[k];
+    a += weights_[k] * values_[k];
+    b += weights_[k] * here;
+    aa += weights_[k] * values_[k] * values_[k];
+    bb += weights_[k] * here * here;
+    ab += weights_[k] * values_[k] * here;
+  }
+  const double variances = (aa - a * a / w) * (bb - b * b / w);
+  return variances > 0 ? (ab - a * b / w) / std::sqrt(variances) : 0;
+}
+
+PatchFinding ReferencePatch::find(const GreyImage &image, const Eigen::Vector2d &start,
+                                  const Eigen::Matrix2d &deformation) const
+{
+  // A gradient of the first frame, seen in this one: F^-T times it.
+  const Eigen::Matrix2d turned = deformation.inverse().transpose();
+  PatchFinding finding{start, 0, Eigen::Matrix2d::Zero()};
+  for (std::size_t k = 0; k < values_.size(); ++k)
+    finding.structure += weights_[k] * gradients_[k] * gradients_[k].transpose();
+  finding.structure = turned * finding.structure * turned.transpose();
+  // Keeps the solution where it is along directions in which nothing is seen.
+  const Eigen::Matrix2d system = finding.structure + 1e-3 * finding.structure.trace() * Eigen::Matrix2d::Identity();
+  if (!(system.determinant() > 0))
+    return finding;
+  const Eigen::Matrix2d inverse = system.inverse();
+  for (int iteration = 0; iteration < 10; ++iteration)
+  {
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    for (std::size_t k = 0; k < values_.size(); ++k)
+      right += weights_[k] * (values_[k] - image(finding.position + deformation * offsets()[k])) * gradients_[k];
+    Eigen::Vector2d step = inverse * (turned * right);
+    if (step.norm() > largest_step)
+      step *= largest_step / step.norm();
+    finding.position += step;
+    if (step.squaredNorm() < 1e-4)
+      break;
+  }
+  if (image.contains(finding.position))
+    finding.similarity = similarity(image, finding.position, deformation);
+  return finding;
+}
+
+PatchFinding ReferencePatch::search(const GreyImage &image, const Eigen::Vector2d &centre,
+                                    const Eigen::Matrix2d &deformation, int radius) const
+{
+  Eigen::Vector2d best = centre;
+  double highest = -1;
+  for (int y = -radius; y <= radius; y += 2)
+    for (int x = -radius; x <= radius; x += 2)
+    {
+      const Eigen::Vector2d start = centre + Eigen::Vector2d(x, y);
+      const double value = image.contains(start) ? similarity(image, start, deformation) : -1;
+      if (value > highest)
+      {
+        highest = value;
+        best = start;
+      }
+    }
+  return find(image, best, deformation);
+}
+} // namespace pelvireg::tracking
