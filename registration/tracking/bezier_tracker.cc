@@ -12,8 +12,7 @@ namespace
 using Eigen::Vector2d;
 
 constexpr double largest_round_trip = 1;    // px: flow that does not come back has lost its point
-constexpr double similarity_of_lost = 0.5;  // a joint below is lost,
-constexpr double similarity_of_found = 0.6; // and found again above
+constexpr double agreement_of_found = 0.5;  // of a joint that was lost
 constexpr double largest_correction = 3;    // px, of a match against its prediction, unless searched for
 constexpr int search_radius = 6;            // px
 constexpr double joint_model_error = 0.2;   // px, of a match beside noise: tissue that deforms or leaves the plane
@@ -88,16 +87,18 @@ std::vector<JointMeasurement> BezierTracker::measure(Organ &organ, const FlowPoi
                                                : joint.patch.find(image, start, deformation);
     const bool is_near = joint.is_lost || (finding.position - start).norm() < largest_correction;
     const bool was_lost = joint.is_lost;
-    joint.similarity = std::max(0.0, finding.similarity);
-    joint.is_lost = !is_near || finding.similarity < (was_lost ? similarity_of_found : similarity_of_lost);
+    joint.agreement = finding.is_in_image ? agreement_of(finding.squared_difference, noise_, tolerance_) : 0;
+    joint.is_lost = !is_near || joint.agreement < (was_lost ? agreement_of_found : options_.lost_below);
     frame.n_lost_joints += joint.is_lost;
     frame.n_reacquired_joints += was_lost && !joint.is_lost;
+    measured[i].was_seen = !was_lost;
     if (joint.is_lost)
       continue;
     const Eigen::Matrix2d slight = 1e-9 * (1 + finding.structure.trace()) * Eigen::Matrix2d::Identity();
     const Eigen::Matrix2d covariance = variance * (finding.structure + slight).inverse() +
                                        joint_model_error * joint_model_error * Eigen::Matrix2d::Identity();
-    measured[i] = {finding.position, covariance.inverse()};
+    measured[i].position = finding.position;
+    measured[i].precision = covariance.inverse();
   }
   return measured;
 }
@@ -114,7 +115,7 @@ TrackedOutline BezierTracker::outline_of(const Organ &organ, const GreyImage &im
     if (organ.fit.has_border[place.segment])
       confidence = organ.border->agreement(image, organ.curve, place);
     else
-      confidence = (1 - place.t) * organ.joints[place.segment].similarity + place.t * organ.joints[next].similarity;
+      confidence = (1 - place.t) * organ.joints[place.segment].agreement + place.t * organ.joints[next].agreement;
     outline.confidence[i] = std::clamp(confidence, 0.0, 1.0);
     outline.is_lost.push_back(outline.confidence[i] < options_.lost_below);
   }

@@ -26,7 +26,7 @@ private:
   struct Joint
   {
     ReferencePatch patch;
-    double similarity = 1;
+    double agreement = 1; ///< with the first frame, 0 … 1
     bool is_lost = false;
   };
   struct Organ

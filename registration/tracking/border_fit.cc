@@ -235,7 +235,6 @@ double BorderFit::agreement(const GreyImage &image, const BezierCurve &curve, co
   const Sample &sample = samples_[first + nearest];
   if (!image.contains(curve.position(sample.segment, sample.t)))
     return 0;
-  const double usual = 2 * noise_ * noise_ + tolerance_ * tolerance_;
-  return std::exp(-std::max(0.0, squared_difference(image, curve, sample) / usual - 1) / 2);
+  return agreement_of(squared_difference(image, curve, sample), noise_, tolerance_);
 }
 } // namespace pelvireg::tracking

@@ -27,6 +27,12 @@ double noise_of(const Image &image)
   return std::sqrt(std::numbers::pi / 2) * sum / (6.0 * (image.columns - 2) * (image.rows - 2));
 }
 
+double agreement_of(double squared_difference, double noise, double tolerance)
+{
+  const double usual = 2 * noise * noise + tolerance * tolerance;
+  return std::exp(-std::max(0.0, squared_difference / usual - 1) / 2);
+}
+
 double contrast_of(const Image &image)
 {
   std::vector<float> values = image.pixels;

@@ -51,6 +51,9 @@ private:
 /// Standard deviation of the noise, from one frame: mean of the absolute second mixed difference (Immerkaer 1996), which
 /// planes and edges along rows or columns do not reach.
 double noise_of(const Image &image);
+/// How well two places look alike, 1 … 0, from the mean squared difference of their values: 1 up to what noise (its
+/// standard deviation in either) and a tolerated change of signal explain.
+double agreement_of(double squared_difference, double noise, double tolerance);
 /// The 99th minus the 1st percentile.
 double contrast_of(const Image &image);
 } // namespace pelvireg::tracking

@@ -67,7 +67,9 @@ std::vector<Vector2d> move_joints(const std::vector<Vector2d> &rest, const std::
     const std::size_t next = (i + 1) % n;
     const Vector2d edge = rest[next] - rest[i];
     const double length = std::max(edge.norm(), 1e-6);
-    const double step = priors.step_difference * std::sqrt(length / reference_spacing);
+    const bool was_seen = measured[i].was_seen && measured[next].was_seen;
+    const double step = (was_seen ? priors.step_difference : priors.unseen_step_difference) *
+                        std::sqrt(length / reference_spacing);
     add_difference(prior, prior_right, i, next, before[next] - before[i], 1 / (step * step));
     const double stretch = priors.stretch * length;
     add_difference(prior, prior_right, i, next, mean * edge, 1 / (stretch * stretch));

@@ -13,12 +13,15 @@ struct JointMeasurement
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   /// Inverse covariance, 1/px^2; zero for a lost joint, one-sided along a straight border.
   Eigen::Matrix2d precision = Eigen::Matrix2d::Zero();
+  /// The joint was not lost in the frame before: where it was then is known.
+  bool was_seen = true;
 };
 
 /// What neighbouring joints may do against each other.
 struct JointPriors
 {
   double step_difference = 0.15; ///< px for joints 8 px apart, standard deviation: between two frames
+  double unseen_step_difference = 3; ///< the same, for an edge with a joint that was lost
   double stretch = 0.3;          ///< standard deviation of an edge's change since rest, in parts of its length, beside
                                  ///< the outline's mean deformation: no material point slides along the outline for good
 };

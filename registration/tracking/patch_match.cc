@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include <limits>
+
 namespace pelvireg::tracking
 {
 namespace
@@ -39,22 +41,17 @@ ReferencePatch::ReferencePatch(const GreyImage &first, const Eigen::Vector2d &ce
   }
 }
 
-double ReferencePatch::similarity(const GreyImage &image, const Eigen::Vector2d &position,
-                                  const Eigen::Matrix2d &deformation) const
+double ReferencePatch::squared_difference(const GreyImage &image, const Eigen::Vector2d &position,
+                                          const Eigen::Matrix2d &deformation) const
 {
-  double w = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+  double sum = 0, weights = 0;
   for (std::size_t k = 0; k < values_.size(); ++k)
   {
-    const double here = image(position + deformation * offsets()[k]);
-    w += weights_[k];
-    a += weights_[k] * values_[k];
-    b += weights_[k] * here;
-    aa += weights_[k] * values_[k] * values_[k];
-    bb += weights_[k] * here * here;
-    ab += weights_[k] * values_[k] * here;
+    const double difference = image(position + deformation * offsets()[k]) - values_[k];
+    sum += weights_[k] * difference * difference;
+    weights += weights_[k];
   }
-  const double variances = (aa - a * a / w) * (bb - b * b / w);
-  return variances > 0 ? (ab - a * b / w) / std::sqrt(variances) : 0;
+  return sum / weights;
 }
 
 PatchFinding ReferencePatch::find(const GreyImage &image, const Eigen::Vector2d &start,
@@ -62,7 +59,7 @@ PatchFinding ReferencePatch::find(const GreyImage &image, const Eigen::Vector2d 
 {
   // A gradient of the first frame, seen in this one: F^-T times it.
   const Eigen::Matrix2d turned = deformation.inverse().transpose();
-  PatchFinding finding{start, 0, Eigen::Matrix2d::Zero()};
+  PatchFinding finding{.position = start};
   for (std::size_t k = 0; k < values_.size(); ++k)
     finding.structure += weights_[k] * gradients_[k] * gradients_[k].transpose();
   finding.structure = turned * finding.structure * turned.transpose();
@@ -83,8 +80,8 @@ PatchFinding ReferencePatch::find(const GreyImage &image, const Eigen::Vector2d 
     if (step.squaredNorm() < 1e-4)
       break;
   }
-  if (image.contains(finding.position))
-    finding.similarity = similarity(image, finding.position, deformation);
+  finding.is_in_image = image.contains(finding.position);
+  finding.squared_difference = squared_difference(image, finding.position, deformation);
   return finding;
 }
 
@@ -92,15 +89,15 @@ PatchFinding ReferencePatch::search(const GreyImage &image, const Eigen::Vector2
                                     const Eigen::Matrix2d &deformation, int radius) const
 {
   Eigen::Vector2d best = centre;
-  double highest = -1;
+  double least = std::numeric_limits<double>::infinity();
   for (int y = -radius; y <= radius; y += 2)
     for (int x = -radius; x <= radius; x += 2)
     {
       const Eigen::Vector2d start = centre + Eigen::Vector2d(x, y);
-      const double value = image.contains(start) ? similarity(image, start, deformation) : -1;
-      if (value > highest)
+      const double value = squared_difference(image, start, deformation);
+      if (image.contains(start) && value < least)
       {
-        highest = value;
+        least = value;
         best = start;
       }
     }

@@ -10,7 +10,8 @@ namespace pelvireg::tracking
 struct PatchFinding
 {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  double similarity = 0;                                ///< -1 … 1, weighted normalised cross-correlation
+  double squared_difference = 0;                       ///< weighted mean, in the image's unit squared
+  bool is_in_image = false;
   Eigen::Matrix2d structure = Eigen::Matrix2d::Zero(); ///< sum of w grad grad^T at `position`'s side; small along a
                                                         ///< straight border, where a patch slides unseen
 };
@@ -35,7 +36,8 @@ public:
                       int radius) const;
 
 private:
-  double similarity(const GreyImage &image, const Eigen::Vector2d &position, const Eigen::Matrix2d &deformation) const;
+  double squared_difference(const GreyImage &image, const Eigen::Vector2d &position,
+                            const Eigen::Matrix2d &deformation) const;
 
   std::vector<double> values_, weights_;
   std::vector<Eigen::Vector2d> gradients_;

