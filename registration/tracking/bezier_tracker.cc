@@ -14,6 +14,7 @@ using Eigen::Vector2d;
 constexpr double largest_round_trip = 1;    // px: flow that does not come back has lost its point
 constexpr double agreement_of_found = 0.5;  // of a joint that was lost
 constexpr double largest_correction = 3;    // px, of a match against its prediction, unless searched for
+constexpr int n_passes = 2; // of looking for joints and moving them together: the second starts from where all agree
 constexpr int search_radius = 6;            // px
 constexpr double joint_model_error = 0.2;   // px, of a match beside noise: tissue that deforms or leaves the plane
 
@@ -72,35 +73,57 @@ void BezierTracker::do_start(const Image &first, const std::vector<InitialOutlin
     organ.border = std::make_unique<BorderFit>(first_, organ.fit, noise_, tolerance_);
 }
 
-std::vector<JointMeasurement> BezierTracker::measure(Organ &organ, const FlowPoint *predicted, const GreyImage &image,
-                                                     TrackedFrame &frame) const
+BezierTracker::Sighting BezierTracker::look_for(const Organ &organ, std::size_t index, const Vector2d &start,
+                                                const Eigen::Matrix2d &deformation, const GreyImage &image) const
 {
+  const Joint &joint = organ.joints[index];
+  const PatchFinding finding = joint.is_lost ? joint.patch.search(image, start, deformation, search_radius)
+                                             : joint.patch.find(image, start, deformation);
+  const bool is_near = joint.is_lost || (finding.position - start).norm() < largest_correction;
+  Sighting sighting;
+  sighting.agreement = finding.is_in_image ? agreement_of(finding.squared_difference, noise_, tolerance_) : 0;
+  sighting.is_lost = !is_near || sighting.agreement < (joint.is_lost ? agreement_of_found : options_.lost_below);
+  sighting.measurement.was_seen = !joint.is_lost;
+  if (sighting.is_lost)
+    return sighting;
   const double variance = 2 * noise_ * noise_ + 0.1 * tolerance_ * tolerance_;
-  std::vector<JointMeasurement> measured(organ.joints.size());
-  for (std::size_t i = 0; i < organ.joints.size(); ++i)
+  const Eigen::Matrix2d slight = 1e-9 * (1 + finding.structure.trace()) * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d covariance = variance * (finding.structure + slight).inverse() +
+                                     joint_model_error * joint_model_error * Eigen::Matrix2d::Identity();
+  sighting.measurement.position = finding.position;
+  sighting.measurement.precision = covariance.inverse();
+  return sighting;
+}
+
+std::vector<Vector2d> BezierTracker::follow_joints(Organ &organ, const FlowPoint *flow, const GreyImage &image,
+                                                   TrackedFrame &frame) const
+{
+  const std::size_t n = organ.joints.size();
+  std::vector<Vector2d> joints = organ.curve.joints, starts = joints;
+  for (std::size_t i = 0; i < n; ++i)
+    if (flow[i].found && flow[i].round_trip < largest_round_trip && !organ.joints[i].is_lost)
+      starts[i] = flow[i].position;
+  std::vector<Sighting> sightings(n);
+  for (int pass = 0; pass < n_passes; ++pass)
+  {
+    std::vector<JointMeasurement> measured(n);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      sightings[i] = look_for(organ, i, starts[i], local_deformation(organ.fit.curve, joints, i), image);
+      measured[i] = sightings[i].measurement;
+    }
+    joints = move_joints(organ.fit.curve.joints, organ.curve.joints, measured, {});
+    starts = joints;
+  }
+  for (std::size_t i = 0; i < n; ++i)
   {
     Joint &joint = organ.joints[i];
-    const bool is_predicted = predicted[i].found && predicted[i].round_trip < largest_round_trip && !joint.is_lost;
-    const Vector2d start = is_predicted ? predicted[i].position : organ.curve.joints[i];
-    const Eigen::Matrix2d deformation = local_deformation(organ.fit.curve, organ.curve.joints, i);
-    const PatchFinding finding = joint.is_lost ? joint.patch.search(image, start, deformation, search_radius)
-                                               : joint.patch.find(image, start, deformation);
-    const bool is_near = joint.is_lost || (finding.position - start).norm() < largest_correction;
-    const bool was_lost = joint.is_lost;
-    joint.agreement = finding.is_in_image ? agreement_of(finding.squared_difference, noise_, tolerance_) : 0;
-    joint.is_lost = !is_near || joint.agreement < (was_lost ? agreement_of_found : options_.lost_below);
-    frame.n_lost_joints += joint.is_lost;
-    frame.n_reacquired_joints += was_lost && !joint.is_lost;
-    measured[i].was_seen = !was_lost;
-    if (joint.is_lost)
-      continue;
-    const Eigen::Matrix2d slight = 1e-9 * (1 + finding.structure.trace()) * Eigen::Matrix2d::Identity();
-    const Eigen::Matrix2d covariance = variance * (finding.structure + slight).inverse() +
-                                       joint_model_error * joint_model_error * Eigen::Matrix2d::Identity();
-    measured[i].position = finding.position;
-    measured[i].precision = covariance.inverse();
+    frame.n_lost_joints += sightings[i].is_lost;
+    frame.n_reacquired_joints += joint.is_lost && !sightings[i].is_lost;
+    joint.is_lost = sightings[i].is_lost;
+    joint.agreement = sightings[i].agreement;
   }
-  return measured;
+  return joints;
 }
 
 TrackedOutline BezierTracker::outline_of(const Organ &organ, const GreyImage &image) const
@@ -135,9 +158,8 @@ TrackedFrame BezierTracker::do_update(const Image &frame)
   const FlowPoint *of_organ = predicted.data();
   for (Organ &organ : organs_)
   {
-    const std::vector<JointMeasurement> measured = measure(organ, of_organ, image, tracked);
+    organ.curve = carry(organ.curve, follow_joints(organ, of_organ, image, tracked));
     of_organ += organ.joints.size();
-    organ.curve = carry(organ.curve, move_joints(organ.fit.curve.joints, organ.curve.joints, measured, {}));
     if (std::any_of(organ.fit.has_border.begin(), organ.fit.has_border.end(), [](char has) { return has != 0; }))
       organ.curve = organ.border->adjust(image, organ.curve, {});
     tracked.outlines.push_back(outline_of(organ, image));

@@ -42,9 +42,18 @@ private:
   TrackedFrame do_update(const Image &frame) override;
 
   Organ make_organ(const InitialOutline &outline) const;
-  /// `predicted` is where flow leads each joint.
-  std::vector<JointMeasurement> measure(Organ &organ, const FlowPoint *predicted, const GreyImage &image,
-                                        TrackedFrame &frame) const;
+  /// One joint in one frame.
+  struct Sighting
+  {
+    JointMeasurement measurement;
+    double agreement = 0;
+    bool is_lost = true;
+  };
+  Sighting look_for(const Organ &organ, std::size_t index, const Eigen::Vector2d &start,
+                    const Eigen::Matrix2d &deformation, const GreyImage &image) const;
+  /// Where the joints go; `flow` leads each from the last frame. Notes which are lost.
+  std::vector<Eigen::Vector2d> follow_joints(Organ &organ, const FlowPoint *flow, const GreyImage &image,
+                                             TrackedFrame &frame) const;
   TrackedOutline outline_of(const Organ &organ, const GreyImage &image) const;
 
   Options options_;

@@ -29,6 +29,57 @@ void add_difference(Eigen::MatrixXd &matrix, Eigen::VectorXd &right, std::size_t
     right[b + k] += weight * difference[k];
   }
 }
+/// The similarity that carries `before` to what was measured best: its linear part, the identity where little was.
+Eigen::Matrix2d mean_step(const std::vector<Vector2d> &before, const std::vector<JointMeasurement> &measured,
+                          const std::vector<double> &weight)
+{
+  Vector2d centre = Vector2d::Zero();
+  for (const Vector2d &joint : before)
+    centre += joint / static_cast<double>(before.size());
+  Eigen::Matrix4d matrix = Eigen::Vector4d(1, 1, 1e-6, 1e-6).asDiagonal(); // turn and stretch (a, b), shift
+  Eigen::Vector4d right(1, 0, 0, 0);
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    const Vector2d from = before[i] - centre;
+    Eigen::Matrix<double, 2, 4> map;
+    map << from.x(), -from.y(), 1, 0, from.y(), from.x(), 0, 1;
+    matrix += weight[i] * map.transpose() * measured[i].precision * map;
+    right += weight[i] * map.transpose() * measured[i].precision * (measured[i].position - centre);
+  }
+  const Eigen::Vector4d solution = matrix.ldlt().solve(right);
+  return Eigen::Matrix2d{{solution[0], -solution[1]}, {solution[1], solution[0]}};
+}
+
+/// What does not depend on the measurements: shape since rest, and where nothing is seen, rest.
+struct Prior
+{
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd right;
+};
+
+Prior prior_of(const std::vector<Vector2d> &rest, const std::vector<Vector2d> &before,
+               const std::vector<JointMeasurement> &measured, const Eigen::Matrix2d &step,
+               const JointPriors &priors)
+{
+  const Eigen::Index size = 2 * static_cast<Eigen::Index>(rest.size());
+  const Eigen::Matrix2d mean = mean_deformation(rest, before);
+  Prior prior{1e-6 * Eigen::MatrixXd::Identity(size, size), Eigen::VectorXd(size)};
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    prior.right.segment<2>(2 * static_cast<Eigen::Index>(i)) = 1e-6 * before[i];
+  for (std::size_t i = 0; i < rest.size(); ++i)
+  {
+    const std::size_t next = (i + 1) % rest.size();
+    const Vector2d edge = rest[next] - rest[i];
+    const double length = std::max(edge.norm(), 1e-6);
+    const bool was_seen = measured[i].was_seen && measured[next].was_seen;
+    const double difference =
+        (was_seen ? priors.step_difference : priors.unseen_step_difference) * std::sqrt(length / reference_spacing);
+    add_difference(prior.matrix, prior.right, i, next, step * (before[next] - before[i]), 1 / (difference * difference));
+    const double stretch = priors.stretch * length;
+    add_difference(prior.matrix, prior.right, i, next, step * (mean * edge), 1 / (stretch * stretch));
+  }
+  return prior;
+}
 } // namespace
 
 Eigen::Matrix2d mean_deformation(const std::vector<Vector2d> &from, const std::vector<Vector2d> &to)
@@ -56,31 +107,11 @@ std::vector<Vector2d> move_joints(const std::vector<Vector2d> &rest, const std::
                                   const std::vector<JointMeasurement> &measured, const JointPriors &priors)
 {
   const std::size_t n = rest.size();
-  const Eigen::Index size = 2 * static_cast<Eigen::Index>(n);
-  const Eigen::Matrix2d mean = mean_deformation(rest, before);
-  Eigen::MatrixXd prior = 1e-6 * Eigen::MatrixXd::Identity(size, size); // where every joint is lost, nothing moves
-  Eigen::VectorXd prior_right(size);
-  for (std::size_t i = 0; i < n; ++i)
-    prior_right.segment<2>(2 * static_cast<Eigen::Index>(i)) = 1e-6 * before[i];
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const std::size_t next = (i + 1) % n;
-    const Vector2d edge = rest[next] - rest[i];
-    const double length = std::max(edge.norm(), 1e-6);
-    const bool was_seen = measured[i].was_seen && measured[next].was_seen;
-    const double step = (was_seen ? priors.step_difference : priors.unseen_step_difference) *
-                        std::sqrt(length / reference_spacing);
-    add_difference(prior, prior_right, i, next, before[next] - before[i], 1 / (step * step));
-    const double stretch = priors.stretch * length;
-    add_difference(prior, prior_right, i, next, mean * edge, 1 / (stretch * stretch));
-  }
-
   std::vector<double> weight(n, 1);
   std::vector<Vector2d> joints = before;
   for (int pass = 0; pass < n_reweightings; ++pass)
   {
-    Eigen::MatrixXd matrix = prior;
-    Eigen::VectorXd right = prior_right;
+    auto [matrix, right] = prior_of(rest, before, measured, mean_step(before, measured, weight), priors);
     for (std::size_t i = 0; i < n; ++i)
     {
       const Eigen::Index at = 2 * static_cast<Eigen::Index>(i);

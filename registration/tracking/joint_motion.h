@@ -20,14 +20,16 @@ struct JointMeasurement
 /// What neighbouring joints may do against each other.
 struct JointPriors
 {
-  double step_difference = 0.15; ///< px for joints 8 px apart, standard deviation: between two frames
+  double step_difference = 0.15; ///< px for joints 8 px apart, standard deviation: between two frames,
+                                 ///< beside the outline's mean turn and stretch in them
   double unseen_step_difference = 3; ///< the same, for an edge with a joint that was lost
   double stretch = 0.3;          ///< standard deviation of an edge's change since rest, in parts of its length, beside
                                  ///< the outline's mean deformation: no material point slides along the outline for good
 };
 
 /// Positions of closed joints: minimum over all of the squared deviations from measurements, steps that differ between
-/// neighbours and edges that differ from rest after the outline's mean affine deformation; all in standard deviations. A
+/// neighbours after the outline's mean step (a similarity) and edges that differ from rest after its mean affine
+/// deformation; all in standard deviations. A
 /// measurement that neighbours contradict loses weight (Cauchy).
 /// @param rest, before  the joints in the first and in the last frame, px
 std::vector<Eigen::Vector2d> move_joints(const std::vector<Eigen::Vector2d> &rest,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "registration/tracking/outline_tracker.h"
+#include "synthetic/dataset/geometry.h"
 #include "synthetic/dataset/image_series.h"
 
 namespace pelvireg::runner
