@@ -29,7 +29,8 @@ std::vector<double> corners_of(const ClosedSpline &spline, double bound, double 
     curvature[static_cast<std::size_t>(i)] = std::abs(spline.curvature(static_cast<double>(i) / n_scan));
   std::vector<int> order(n_scan);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b)
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b)
                    { return curvature[static_cast<std::size_t>(a)] > curvature[static_cast<std::size_t>(b)]; });
   std::vector<double> corners;
   for (const int i : order)
@@ -38,8 +39,8 @@ std::vector<double> corners_of(const ClosedSpline &spline, double bound, double 
     const bool is_maximum = here >= curvature[static_cast<std::size_t>((i + 1) % n_scan)] &&
                             here >= curvature[static_cast<std::size_t>((i + n_scan - 1) % n_scan)];
     const double u = static_cast<double>(i) / n_scan;
-    const bool is_free = std::all_of(corners.begin(), corners.end(), [&](double other)
-                                     { return std::abs(std::remainder(u - other, 1.0)) >= gap; });
+    const bool is_free = std::all_of(corners.begin(), corners.end(),
+                                     [&](double other) { return std::abs(std::remainder(u - other, 1.0)) >= gap; });
     if (here > bound && is_maximum && is_free)
       corners.push_back(u);
   }
@@ -161,8 +162,9 @@ PixelPoints BezierFit::points_on(const BezierCurve &moved) const
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     const auto [segment, t] = places[i];
-    points.row(static_cast<Eigen::Index>(i)) =
-        moved.position(segment, t) + remainder[i].x() * moved.tangent(segment, t) + remainder[i].y() * moved.normal(segment, t);
+    points.row(static_cast<Eigen::Index>(i)) = moved.position(segment, t) +
+                                               remainder[i].x() * moved.tangent(segment, t) +
+                                               remainder[i].y() * moved.normal(segment, t);
   }
   return points;
 }

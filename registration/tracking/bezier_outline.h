@@ -36,10 +36,10 @@ struct BezierPlace
 /// The outline at rest.
 struct BezierFit
 {
-  BezierCurve curve;                     ///< runs from +x towards +y (its normals point outward)
-  std::vector<char> is_corner;           ///< one a joint: a maximum of curvature
-  std::vector<char> has_border;          ///< one a segment: its larger part shows one
-  std::vector<BezierPlace> places;       ///< of the outline's points
+  BezierCurve curve;               ///< runs from +x towards +y (its normals point outward)
+  std::vector<char> is_corner;     ///< one a joint: a maximum of curvature
+  std::vector<char> has_border;    ///< one a segment: its larger part shows one
+  std::vector<BezierPlace> places; ///< of the outline's points
   /// Of the outline's points, along tangent and normal at their places: what the fit leaves, so that the first frame is
   /// met exactly.
   std::vector<Eigen::Vector2d> remainder;

@@ -11,12 +11,12 @@ namespace
 {
 using Eigen::Vector2d;
 
-constexpr double largest_round_trip = 1;    // px: flow that does not come back has lost its point
-constexpr double agreement_of_found = 0.5;  // of a joint that was lost
-constexpr double largest_correction = 3;    // px, of a match against its prediction, unless searched for
+constexpr double largest_round_trip = 1;   // px: flow that does not come back has lost its point
+constexpr double agreement_of_found = 0.5; // of a joint that was lost
+constexpr double largest_correction = 3;   // px, of a match against its prediction, unless searched for
 constexpr int n_passes = 2; // of looking for joints and moving them together: the second starts from where all agree
-constexpr int search_radius = 6;            // px
-constexpr double joint_model_error = 0.2;   // px, of a match beside noise: tissue that deforms or leaves the plane
+constexpr int search_radius = 6;          // px
+constexpr double joint_model_error = 0.2; // px, of a match beside noise: tissue that deforms or leaves the plane
 
 /// Even-odd rule.
 bool is_inside(const PixelPoints &closed, const Vector2d &point)
@@ -158,7 +158,8 @@ TrackedFrame BezierTracker::do_update(const Image &frame)
   const FlowPoint *of_organ = predicted.data();
   for (Organ &organ : organs_)
   {
-    organ.curve = carry(organ.curve, follow_joints(organ, of_organ, image, tracked));
+    const std::vector<Vector2d> moved = follow_joints(organ, of_organ, image, tracked);
+    organ.curve = predict(organ.fit.curve, organ.curve, moved);
     of_organ += organ.joints.size();
     if (std::any_of(organ.fit.has_border.begin(), organ.fit.has_border.end(), [](char has) { return has != 0; }))
       organ.curve = organ.border->adjust(image, organ.curve, {});

@@ -11,13 +11,14 @@ namespace
 {
 using Eigen::Vector2d;
 
-constexpr double sample_spacing = 1.5;    // px along the outline
-constexpr double reference_spacing = 8;   // px between joints
+constexpr double sample_spacing = 1.5;  // px along the outline
+constexpr double reference_spacing = 8; // px between joints
+constexpr double remembered = 0.95;     // of an inner control point's place across its chord, from frame to frame
 constexpr int n_iterations = 4;
-constexpr double largest_shift = 1;       // px, asked for by one sample in one iteration
-constexpr double model_error = 0.15;      // px, of a profile's shift beside noise: partial volume, other neighbours
-constexpr double outside_weight = 0.5;    // of taps beyond the border, where a neighbour may slide past
-constexpr double correlation = 0.5;       // independent samples a sample, after smoothing
+constexpr double largest_shift = 1;    // px, asked for by one sample in one iteration
+constexpr double model_error = 0.15;   // px, of a profile's shift beside noise: partial volume, other neighbours
+constexpr double outside_weight = 0.5; // of taps beyond the border, where a neighbour may slide past
+constexpr double correlation = 0.5;    // independent samples a sample, after smoothing
 
 double angle_at(const BezierCurve &curve, std::size_t joint)
 {
@@ -70,7 +71,10 @@ struct System
   Eigen::VectorXd right;
 };
 
-double precision_of(double deviation) { return 1 / (deviation * deviation); }
+double precision_of(double deviation)
+{
+  return 1 / (deviation * deviation);
+}
 
 /// How the outline may deviate from `predicted`, seen from `curve`, which has moved by `moved` already.
 void add_priors(System &system, const BezierCurve &curve, const Eigen::VectorXd &moved, const BezierFit &fit,
@@ -113,6 +117,19 @@ BezierCurve carry(const BezierCurve &from, const std::vector<Vector2d> &joints)
     moved.inner[i][1] = moved.next_joint(i) + similarity * (from.inner[i][1] - from.next_joint(i));
   }
   return moved;
+}
+
+BezierCurve predict(const BezierCurve &rest, const BezierCurve &last, const std::vector<Vector2d> &joints)
+{
+  BezierCurve predicted = carry(rest, joints);
+  const BezierCurve now = carry(last, joints);
+  for (std::size_t i = 0; i < joints.size(); ++i)
+  {
+    const Vector2d across = chord_normal(predicted, i);
+    for (std::size_t k = 0; k < 2; ++k)
+      predicted.inner[i][k] += remembered * across.dot(now.inner[i][k] - predicted.inner[i][k]) * across;
+  }
+  return predicted;
 }
 
 BorderFit::BorderFit(const GreyImage &first, const BezierFit &fit, double noise, double tolerance)

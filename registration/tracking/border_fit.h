@@ -17,7 +17,8 @@ struct BorderPriors
   double smooth_bend = 0.1, corner_bend = 0.4; ///< rad: change since rest of the angle at a joint
 };
 
-/// Energy of one outline: profiles along the normals from 6 px inside to 3 px outside, a sample every 1.5 px of outline.
+/// Energy of one outline: profiles along the normals from 6 px inside to 3 px outside, a sample every 1.5 px of
+/// outline.
 class BorderFit
 {
 public:
@@ -57,4 +58,7 @@ private:
 
 /// The inner control points of `from`, carried along when its joints move: turned and scaled with their chord.
 BezierCurve carry(const BezierCurve &from, const std::vector<Eigen::Vector2d> &joints);
+/// Likewise: along the chords as at rest, across them as in the last frame, so that inner control points wander neither
+/// along the outline nor, where nothing is seen of them, for long across it.
+BezierCurve predict(const BezierCurve &rest, const BezierCurve &last, const std::vector<Eigen::Vector2d> &joints);
 } // namespace pelvireg::tracking

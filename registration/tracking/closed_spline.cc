@@ -15,7 +15,8 @@ Eigen::Vector4d blending(double t, int derivative)
 {
   const double s = 1 - t;
   if (derivative == 0)
-    return Eigen::Vector4d(s * s * s, 3 * t * t * t - 6 * t * t + 4, -3 * t * t * t + 3 * t * t + 3 * t + 1, t * t * t) /
+    return Eigen::Vector4d(s * s * s, 3 * t * t * t - 6 * t * t + 4, -3 * t * t * t + 3 * t * t + 3 * t + 1,
+                           t * t * t) /
            6;
   if (derivative == 1)
     return Eigen::Vector4d(-s * s, 3 * t * t - 4 * t, -3 * t * t + 2 * t + 1, t * t) / 2;
@@ -66,7 +67,8 @@ ClosedSpline::ClosedSpline(const PixelPoints &points, const Eigen::VectorXd &u, 
     bending(i, (i + n - 1) % n) += 1;
   }
   const double weight = 1e-4 * static_cast<double>(points.rows()) / n;
-  controls_ = (rows.transpose() * rows + weight * bending.transpose() * bending).ldlt().solve(rows.transpose() * points);
+  controls_ =
+      (rows.transpose() * rows + weight * bending.transpose() * bending).ldlt().solve(rows.transpose() * points);
 }
 
 Eigen::Vector2d ClosedSpline::evaluate(double u, int derivative) const

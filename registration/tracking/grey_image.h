@@ -48,8 +48,8 @@ private:
   Image image_;
 };
 
-/// Standard deviation of the noise, from one frame: mean of the absolute second mixed difference (Immerkaer 1996), which
-/// planes and edges along rows or columns do not reach.
+/// Standard deviation of the noise, from one frame: mean of the absolute second mixed difference (Immerkaer 1996),
+/// which planes and edges along rows or columns do not reach.
 double noise_of(const Image &image);
 /// How well two places look alike, 1 … 0, from the mean squared difference of their values: 1 up to what noise (its
 /// standard deviation in either) and a tolerated change of signal explain.

@@ -58,8 +58,7 @@ struct Prior
 };
 
 Prior prior_of(const std::vector<Vector2d> &rest, const std::vector<Vector2d> &before,
-               const std::vector<JointMeasurement> &measured, const Eigen::Matrix2d &step,
-               const JointPriors &priors)
+               const std::vector<JointMeasurement> &measured, const Eigen::Matrix2d &step, const JointPriors &priors)
 {
   const Eigen::Index size = 2 * static_cast<Eigen::Index>(rest.size());
   const Eigen::Matrix2d mean = mean_deformation(rest, before);
@@ -74,7 +73,8 @@ Prior prior_of(const std::vector<Vector2d> &rest, const std::vector<Vector2d> &b
     const bool was_seen = measured[i].was_seen && measured[next].was_seen;
     const double difference =
         (was_seen ? priors.step_difference : priors.unseen_step_difference) * std::sqrt(length / reference_spacing);
-    add_difference(prior.matrix, prior.right, i, next, step * (before[next] - before[i]), 1 / (difference * difference));
+    add_difference(prior.matrix, prior.right, i, next, step * (before[next] - before[i]),
+                   1 / (difference * difference));
     const double stretch = priors.stretch * length;
     add_difference(prior.matrix, prior.right, i, next, step * (mean * edge), 1 / (stretch * stretch));
   }

@@ -20,11 +20,11 @@ struct JointMeasurement
 /// What neighbouring joints may do against each other.
 struct JointPriors
 {
-  double step_difference = 0.15; ///< px for joints 8 px apart, standard deviation: between two frames,
-                                 ///< beside the outline's mean turn and stretch in them
+  double step_difference = 0.15;     ///< px for joints 8 px apart, standard deviation: between two frames,
+                                     ///< beside the outline's mean turn and stretch in them
   double unseen_step_difference = 3; ///< the same, for an edge with a joint that was lost
-  double stretch = 0.3;          ///< standard deviation of an edge's change since rest, in parts of its length, beside
-                                 ///< the outline's mean deformation: no material point slides along the outline for good
+  double stretch = 0.3; ///< standard deviation of an edge's change since rest, in parts of its length, beside
+                        ///< the outline's mean deformation: no material point slides along the outline for good
 };
 
 /// Positions of closed joints: minimum over all of the squared deviations from measurements, steps that differ between

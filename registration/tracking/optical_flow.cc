@@ -73,7 +73,8 @@ std::vector<Eigen::Vector2d> FlowFrame::dense_inverse_search(const FlowFrame &ne
       const auto value = flow.at<cv::Vec2f>(row + dy, column + dx);
       return Eigen::Vector2d(value[0], value[1]);
     };
-    moved.push_back(point + (1 - fy) * ((1 - fx) * at(0, 0) + fx * at(1, 0)) + fy * ((1 - fx) * at(0, 1) + fx * at(1, 1)));
+    moved.push_back(point + (1 - fy) * ((1 - fx) * at(0, 0) + fx * at(1, 0)) +
+                    fy * ((1 - fx) * at(0, 1) + fx * at(1, 1)));
   }
   return moved;
 }

@@ -8,9 +8,9 @@ namespace pelvireg::tracking
 {
 namespace
 {
-constexpr int half_width = 7;       // px
-constexpr double window = 4.0;      // px, standard deviation of the Gaussian window
-constexpr double outside = 0.5;     // weight of what is not the organ's own
+constexpr int half_width = 7;        // px
+constexpr double window = 4.0;       // px, standard deviation of the Gaussian window
+constexpr double outside = 0.1;      // weight of what is not the organ's own
 constexpr double largest_step = 1.0; // px, of one iteration
 } // namespace
 

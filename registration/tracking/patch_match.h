@@ -10,14 +10,14 @@ namespace pelvireg::tracking
 struct PatchFinding
 {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  double squared_difference = 0;                       ///< weighted mean, in the image's unit squared
+  double squared_difference = 0; ///< weighted mean, in the image's unit squared
   bool is_in_image = false;
   Eigen::Matrix2d structure = Eigen::Matrix2d::Zero(); ///< sum of w grad grad^T at `position`'s side; small along a
-                                                        ///< straight border, where a patch slides unseen
+                                                       ///< straight border, where a patch slides unseen
 };
 
 /// The surroundings of a point in the first frame: 15 x 15 samples a pixel apart under a Gaussian window; those inside
-/// the organ count in full, those outside by half, because neighbours may slide past.
+/// the organ count in full, those outside by a tenth, because neighbours slide past.
 class ReferencePatch
 {
 public:

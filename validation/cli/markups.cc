@@ -53,8 +53,9 @@ dataset::Points points_of(const json &curve, const std::string &organ, const std
                                  organ, curve.at("coordinateUnits").dump()));
   const json &controls = curve.at("controlPoints");
   if (controls.size() < 3)
-    throw InputError(fmt::format("'{}': the curve of {} has {} points, at least 3 are needed; place more round the organ",
-                                 file.string(), organ, controls.size()));
+    throw InputError(
+        fmt::format("'{}': the curve of {} has {} points, at least 3 are needed; place more round the organ",
+                    file.string(), organ, controls.size()));
   const double sign = curve.value("coordinateSystem", "LPS") == "RAS" ? -1 : 1;
   dataset::Points points(static_cast<Eigen::Index>(controls.size()), 3);
   for (std::size_t i = 0; i < controls.size(); ++i)

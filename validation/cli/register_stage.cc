@@ -227,7 +227,8 @@ void make_estimate(ResultDirectory &directory, const RegisterRequest &request, i
   {
     const runner::RegistrationRuns runs = runs_of(directory, request);
     const std::vector<int> numbers = runner::runs_of_shard(request.samples, {});
-    const runner::PartStore store = store_of(directory, runs, origin_of(directory, request.perturbation, request.samples, {}));
+    const runner::PartStore store =
+        store_of(directory, runs, origin_of(directory, request.perturbation, request.samples, {}));
     fill(store, runs, numbers, jobs, progress);
     store.assemble(numbers, directory.path() / ("estimate-" + label_of(request) + ".h5"));
     return to_notes(store.nominal_step_ms());

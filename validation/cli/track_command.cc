@@ -38,18 +38,19 @@ std::vector<runner::OrganContour> drawn_contours(const dataset::ImageSeries &ser
     {
       for (const runner::OrganContour &other : contours)
         if (other.organ == curve.organ)
-          throw InputError(fmt::format("--contours: {} is drawn twice, the second time in '{}'; give one curve an organ",
-                                       curve.organ, file));
+          throw InputError(fmt::format(
+              "--contours: {} is drawn twice, the second time in '{}'; give one curve an organ", curve.organ, file));
       const double off = runner::distance_from_plane(series.geometry, curve.points);
       const double allowed = std::max(0.5 * series.slice_thickness_mm, 1.0);
       if (off > allowed)
-        throw InputError(fmt::format("'{}': the curve of {} lies up to {:.1f} mm from the image plane, at most {:.1f} mm "
-                                     "is allowed; draw it in the images that are tracked",
-                                     file, curve.organ, off, allowed));
+        throw InputError(
+            fmt::format("'{}': the curve of {} lies up to {:.1f} mm from the image plane, at most {:.1f} mm "
+                        "is allowed; draw it in the images that are tracked",
+                        file, curve.organ, off, allowed));
       try
       {
-        const tracking::PixelPoints spline = tracking::spline_outline(
-            runner::to_pixels(series.geometry, curve.points), click_spacing / series.geometry.spacing[0]);
+        const tracking::PixelPoints spline = tracking::spline_outline(runner::to_pixels(series.geometry, curve.points),
+                                                                      click_spacing / series.geometry.spacing[0]);
         contours.push_back({curve.organ, runner::to_space(series.geometry, spline),
                             dataset::Integers::Zero(spline.rows())}); // region wall: a border everywhere
       }
@@ -93,7 +94,8 @@ void track_own(const Arguments &given)
   if (given.contours.empty())
     throw InputError("--contours is missing; give the outlines in the first frame as .mrk.json closed curves");
   if (given.request.all)
-    throw InputError("--all compares trackers with the truth, which your own images do not have; choose one with --tracker");
+    throw InputError(
+        "--all compares trackers with the truth, which your own images do not have; choose one with --tracker");
   Progress progress("track");
   const dataset::ImageSeries series = observation::read_image_series(given.dicom.empty() ? given.nrrd : given.dicom);
   runner::TrackOptions options{.tracker = given.request.tracker, .progress = progress.callback()};
@@ -139,9 +141,10 @@ void add_track_command(CLI::App &program, Invocation &invocation)
                       "Outlines in the first frame: closed curves of 3D Slicer (.mrk.json), named bladder, vagina, "
                       "uterus, rectum; one file or several");
   command->add_option("--out", arguments->out, "Folder for the results of your own images")->capture_default_str();
-  command->footer("Examples:\n  pelvireg track out/t005\n  pelvireg track out/t005 --all\n"
-                  "  pelvireg track --dicom series/ --contours bladder.mrk.json --contours rectum.mrk.json --out tracked\n"
-                  "  pelvireg track --nrrd dynamic.nrrd --contours organs.mrk.json");
+  command->footer(
+      "Examples:\n  pelvireg track out/t005\n  pelvireg track out/t005 --all\n"
+      "  pelvireg track --dicom series/ --contours bladder.mrk.json --contours rectum.mrk.json --out tracked\n"
+      "  pelvireg track --nrrd dynamic.nrrd --contours organs.mrk.json");
   command->callback(
       [&invocation, arguments]
       { invocation.action = [&invocation, arguments] { run_track(*arguments, invocation.command_line); }; });

@@ -15,8 +15,9 @@ struct TrackRequest
   bool uterus_border = false;     ///< look for the uterus' border instead of following its flow alone
 };
 
-/// From images/dyn.nrrd and the rest outlines of observations.h5: tracked.h5, tracked_points.csv, and, against the truth,
-/// contour_errors.csv, contour_table.txt, pictures/tracked_frames.png. Trackers see neither truth nor later outlines.
+/// From images/dyn.nrrd and the rest outlines of observations.h5: tracked.h5, tracked_points.csv, and, against the
+/// truth, contour_errors.csv, contour_table.txt, pictures/tracked_frames.png. Trackers see neither truth nor later
+/// outlines.
 void make_tracked(ResultDirectory &directory, const TrackRequest &request);
 
 /// contour_table.txt and the frames a second on standard output.

@@ -19,8 +19,8 @@ namespace
 {
 using dataset::Points;
 
-constexpr double spacing = 1.0;        // mm between samples of an outline
-constexpr double on_surface = 0.25;    // mm: a point farther from every scored triangle lies on a cap
+constexpr double spacing = 1.0;     // mm between samples of an outline
+constexpr double on_surface = 0.25; // mm: a point farther from every scored triangle lies on a cap
 
 bool shows_border(std::int32_t region)
 {
@@ -99,8 +99,8 @@ std::vector<CutSegment> OutlineTruth::true_outline(const Points &positions) cons
 OutlineTruth::Error OutlineTruth::error(const Points &positions, const std::vector<Points> &tracked) const
 {
   if (tracked.size() != is_scored_.size())
-    throw InputError(fmt::format("outline error: {} contours are given, must be {} as at rest", tracked.size(),
-                                 is_scored_.size()));
+    throw InputError(
+        fmt::format("outline error: {} contours are given, must be {} as at rest", tracked.size(), is_scored_.size()));
   for (std::size_t c = 0; c < tracked.size(); ++c)
     if (tracked[c].rows() != static_cast<Eigen::Index>(is_scored_[c].size()) || !tracked[c].allFinite())
       throw InputError(fmt::format("outline error: contour {} (0-based) has {} points, must be {} finite ones", c,
@@ -118,10 +118,9 @@ OutlineTruth::Error OutlineTruth::error(const Points &positions, const std::vect
       if (!is_scored_[c][static_cast<std::size_t>(i)])
         continue;
       const Eigen::Vector3d place = places.row(i), point = tracked[c].row(i);
-      const Eigen::Vector3d in_plane = place - (place - plane_.origin).dot(plane_.normal) * plane_.normal;
       ++error.n_points;
       error.normal += closest(point, truth).distance;
-      error.tangential += std::abs((point - in_plane).dot(closest(in_plane, truth).direction));
+      error.tangential += std::abs((point - place).dot(closest(place, truth).direction));
     }
   }
   error.normal /= error.n_points;

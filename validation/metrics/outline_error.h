@@ -28,14 +28,15 @@ public:
     double mean = 0;       ///< mm, average symmetric distance of the outlines, a sample every mm of either
     double hd95 = 0;       ///< mm, the larger of the two directed 95th percentiles
     double normal = 0;     ///< mm, mean distance of the tracked material points to the true outline
-    double tangential = 0; ///< mm, mean part along the true outline of the way from each material point's true place,
-                           ///< projected into the plane, to its tracked one: drift along the outline
+    double tangential = 0; ///< mm, mean part along the true outline of the way from each material point's true place
+                           ///< to its tracked one: drift along the outline. The part out of the plane, which no image
+                           ///< shows, is in neither
   };
 
   /// @param positions the truth's nodes at one instant (n x 3, mm)
   /// @param tracked   the contours' points at that instant, as tracked, in the plane; rows as in the constructor
-  /// Throws InputError for another number of rows, a value that is not finite, or when the plane no longer cuts a scored
-  /// part of the surface.
+  /// Throws InputError for another number of rows, a value that is not finite, or when the plane no longer cuts a
+  /// scored part of the surface.
   Error error(const dataset::Points &positions, const std::vector<dataset::Points> &tracked) const;
 
 private:

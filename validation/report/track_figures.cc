@@ -20,10 +20,10 @@ using Colour = std::array<double, 3>;
 using Pixels = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 constexpr int enlargement = 3;
-constexpr double margin = 15;         // mm
-constexpr int gap = 6;                // px between two frames
-constexpr double line_radius = 0.9;   // px of the figure
-constexpr double dash = 7;            // px drawn, and as many left out
+constexpr double margin = 15;       // mm
+constexpr int gap = 6;              // px between two frames
+constexpr double line_radius = 0.9; // px of the figure
+constexpr double dash = 7;          // px drawn, and as many left out
 
 /// The colours of the paper's figure 4.
 Colour colour_of(const OverlayOutline &outline)
@@ -63,7 +63,8 @@ Window window_of(const dataset::ImageGeometry &geometry, const std::vector<Overl
   const Eigen::Vector2d room(margin / geometry.spacing[0], margin / geometry.spacing[1]);
   low = (low - room).cwiseMax(0);
   high = (high + room).cwiseMin(Eigen::Vector2d(geometry.columns - 1, geometry.rows - 1)).cwiseMax(low);
-  return {static_cast<int>(low.x()), static_cast<int>(low.y()), static_cast<int>(high.x()) - static_cast<int>(low.x()) + 1,
+  return {static_cast<int>(low.x()), static_cast<int>(low.y()),
+          static_cast<int>(high.x()) - static_cast<int>(low.x()) + 1,
           static_cast<int>(high.y()) - static_cast<int>(low.y()) + 1};
 }
 
@@ -74,7 +75,10 @@ struct Canvas
   std::vector<Colour> pixels;
 
   Canvas(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
-  Colour &at(int x, int y) { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+  Colour &at(int x, int y)
+  {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  }
 
   void dot(const Eigen::Vector2d &centre, const Colour &colour)
   {
@@ -93,8 +97,7 @@ struct Canvas
 void draw_pixels(Canvas &canvas, const dataset::ImageSeries &series, int frame, const Window &window, int left)
 {
   const dataset::ImageGeometry &geometry = series.geometry;
-  const float *image =
-      series.pixels.data() + static_cast<std::ptrdiff_t>(frame) * geometry.columns * geometry.rows;
+  const float *image = series.pixels.data() + static_cast<std::ptrdiff_t>(frame) * geometry.columns * geometry.rows;
   std::vector<float> sorted(image, image + static_cast<std::ptrdiff_t>(geometry.columns) * geometry.rows);
   const auto top = sorted.begin() + static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(sorted.size()));
   std::nth_element(sorted.begin(), top, sorted.end());
@@ -106,7 +109,8 @@ void draw_pixels(Canvas &canvas, const dataset::ImageSeries &series, int frame, 
       const double row = std::clamp(window.row + (y + 0.5) / enlargement - 0.5, 0.0, geometry.rows - 1.001);
       const int c = static_cast<int>(column), r = static_cast<int>(row);
       const double fx = column - c, fy = row - r;
-      const float *here = image + static_cast<std::ptrdiff_t>(r) * geometry.columns + c, *below = here + geometry.columns;
+      const float *here = image + static_cast<std::ptrdiff_t>(r) * geometry.columns + c,
+                  *below = here + geometry.columns;
       const double value = (1 - fy) * ((1 - fx) * here[0] + fx * here[1]) + fy * ((1 - fx) * below[0] + fx * below[1]);
       canvas.at(left + x, y).fill(std::clamp(scale * value, 0.0, 255.0));
     }
@@ -145,7 +149,8 @@ void write_png(const Canvas &canvas, const std::filesystem::path &file)
   auto *values = static_cast<unsigned char *>(image->GetScalarPointer());
   for (int y = canvas.height - 1; y >= 0; --y) // VTK's rows run upward
     for (int x = 0; x < canvas.width; ++x)
-      for (const double value : canvas.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas.width) + static_cast<std::size_t>(x)])
+      for (const double value : canvas.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas.width) +
+                                              static_cast<std::size_t>(x)])
         *values++ = static_cast<unsigned char>(std::lround(std::clamp(value, 0.0, 255.0)));
   dataset::AtomicFile whole(file);
   vtkNew<vtkPNGWriter> writer;

@@ -53,8 +53,8 @@ std::vector<ContourErrorRow> contour_errors(const TrackedSeries &tracked, const 
     const metrics::OutlineTruth outline(surface.rest, points_of(organ, tracked, tracked.rest), plane);
     for (std::size_t frame = 0; frame < tracked.frames.size(); ++frame)
     {
-      const Points positions = metrics::interpolated_positions(
-          surface.rest, surface.displacements, static_cast<double>(frame) / frames_per_increment);
+      const Points positions = metrics::interpolated_positions(surface.rest, surface.displacements,
+                                                               static_cast<double>(frame) / frames_per_increment);
       const auto error = outline.error(positions, points_of(organ, tracked, tracked.frames[frame]));
       rows.push_back({tracked.tracker, organ, static_cast<int>(frame), error.n_points, error.mean, error.hd95,
                       error.normal, error.tangential});
@@ -111,8 +111,8 @@ std::string tracked_point_csv(const TrackedSeries &tracked)
     {
       const TrackedContour &contour = tracked.frames[frame][c];
       for (Eigen::Index i = 0; i < contour.points.rows(); ++i)
-        text += fmt::format("{},{},{},{},{},{:.9g},{:.9g},{:.9g},{:.4f},{}\n", tracked.tracker, tracked.rest[c].organ, c,
-                            frame, i, contour.points(i, 0), contour.points(i, 1), contour.points(i, 2),
+        text += fmt::format("{},{},{},{},{},{:.9g},{:.9g},{:.9g},{:.4f},{}\n", tracked.tracker, tracked.rest[c].organ,
+                            c, frame, i, contour.points(i, 0), contour.points(i, 1), contour.points(i, 2),
                             contour.confidence[i], static_cast<int>(contour.is_lost[static_cast<std::size_t>(i)]));
     }
   return text;

@@ -35,8 +35,7 @@ OrganContour resampled(const std::string &organ, const dataset::Contour &contour
     while (segment + 1 < n && length[segment + 1] <= at)
       ++segment;
     const double share = (at - length[segment]) / std::max(length[segment + 1] - length[segment], 1e-12);
-    even.points.row(k) =
-        (1 - share) * contour.points.row(segment) + share * contour.points.row((segment + 1) % n);
+    even.points.row(k) = (1 - share) * contour.points.row(segment) + share * contour.points.row((segment + 1) % n);
     even.region[k] = contour.segment_region[segment];
   }
   return even;
@@ -119,8 +118,8 @@ TrackedSeries track(const dataset::ImageSeries &series, const std::vector<OrganC
     outlines.push_back(
         {contour.organ, to_pixels(series.geometry, contour.points), borders_of(contour.region), flow_only});
     const auto n = static_cast<std::size_t>(contour.points.rows());
-    first.push_back({to_space(series.geometry, outlines.back().points),
-                     Eigen::VectorXd::Ones(contour.points.rows()), std::vector<char>(n, 0)});
+    first.push_back({to_space(series.geometry, outlines.back().points), Eigen::VectorXd::Ones(contour.points.rows()),
+                     std::vector<char>(n, 0)});
   }
   try
   {

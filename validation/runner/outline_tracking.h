@@ -16,8 +16,8 @@ namespace pelvireg::runner
 struct OrganContour
 {
   std::string organ;
-  dataset::Points points;    ///< k x 3, mm, LPS
-  dataset::Integers region;  ///< k, SurfaceRegion code of the segment that starts at each point
+  dataset::Points points;   ///< k x 3, mm, LPS
+  dataset::Integers region; ///< k, SurfaceRegion code of the segment that starts at each point
 };
 
 /// One contour in one frame.
@@ -33,7 +33,7 @@ struct TrackedSeries
 {
   std::string tracker;
   std::vector<OrganContour> rest;
-  std::vector<std::vector<TrackedContour>> frames; ///< by frame (0 is the first), then as `rest`
+  std::vector<std::vector<TrackedContour>> frames;     ///< by frame (0 is the first), then as `rest`
   std::vector<int> n_lost_joints, n_reacquired_joints; ///< by frame
   double processor_ms = 0;                             ///< a frame, mean
 };
@@ -50,7 +50,8 @@ struct TrackOptions
 };
 
 /// Follow the contours from the first frame on. Throws InputError for a contour that is not in the image plane (more
-/// than half the slice thickness away) or not in the image, an unknown tracker, and what the tracker refuses of a frame.
+/// than half the slice thickness away) or not in the image, an unknown tracker, and what the tracker refuses of a
+/// frame.
 TrackedSeries track(const dataset::ImageSeries &series, const std::vector<OrganContour> &rest,
                     const TrackOptions &options);
 

@@ -90,8 +90,7 @@ dataset::DynamicFrame frame_of(const TrackedSeries &tracked, std::size_t frame, 
       const Eigen::Index nearest = place.share < 0.5 ? place.segment : next;
       if (contour.is_lost[static_cast<std::size_t>(nearest)])
         continue;
-      points.row(kept) =
-          (1 - place.share) * contour.points.row(place.segment) + place.share * contour.points.row(next);
+      points.row(kept) = (1 - place.share) * contour.points.row(place.segment) + place.share * contour.points.row(next);
       const Eigen::Vector3d before = direction_at(tracked.rest[place.contour].points, place.segment);
       const Eigen::Vector3d after = direction_at(contour.points, place.segment);
       const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(before, after);

@@ -9,10 +9,10 @@ namespace pelvireg::tracking
 {
 namespace
 {
-constexpr double spacing = 2;     // px between the snake's points
-constexpr double blur = 1.5;      // px
+constexpr double spacing = 2; // px between the snake's points
+constexpr double blur = 1.5;  // px
 constexpr double tension = 0.05, bending = 0.1;
-constexpr double step = 1;        // px moved by the force of a strong edge in one iteration
+constexpr double step = 1; // px moved by the force of a strong edge in one iteration
 constexpr int n_iterations = 40;
 
 /// Magnitude of the gradient at every pixel.
@@ -61,8 +61,7 @@ SnakeTracker::Snake SnakeTracker::make_snake(const PixelPoints &outline)
     second(i, (i + 1) % m) += 1;
     second(i, (i + m - 1) % m) += 1;
   }
-  snake.inverse =
-      (Eigen::MatrixXd::Identity(m, m) - tension * second + bending * second * second).inverse();
+  snake.inverse = (Eigen::MatrixXd::Identity(m, m) - tension * second + bending * second * second).inverse();
   return snake;
 }
 

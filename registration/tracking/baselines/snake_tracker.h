@@ -16,11 +16,11 @@ public:
 private:
   struct Snake
   {
-    PixelPoints rest, points;      ///< m x 2
-    Eigen::MatrixXd inverse;       ///< of the semi-implicit step
+    PixelPoints rest, points;         ///< m x 2
+    Eigen::MatrixXd inverse;          ///< of the semi-implicit step
     std::vector<Eigen::Index> before; ///< of each outline point: the snake's point before it
-    Eigen::VectorXd share;         ///< of each outline point: how far to the next
-    PixelPoints remainder;         ///< of each outline point, from its place on the resting snake
+    Eigen::VectorXd share;            ///< of each outline point: how far to the next
+    PixelPoints remainder;            ///< of each outline point, from its place on the resting snake
   };
 
   void do_start(const Image &first, const std::vector<InitialOutline> &outlines) override;

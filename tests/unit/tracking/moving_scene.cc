@@ -16,7 +16,10 @@ double texture(const Vector2d &x)
                  std::sin(0.23 * x.x() * 1.7 + 0.31 * x.y() + 2));
 }
 
-double smooth_step(double distance) { return 0.5 * (1 + std::tanh(distance / 0.7)); }
+double smooth_step(double distance)
+{
+  return 0.5 * (1 + std::tanh(distance / 0.7));
+}
 
 double signal(const Scene &scene, const Vector2d &place)
 {

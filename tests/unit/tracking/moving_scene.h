@@ -37,8 +37,8 @@ Scene four_organs();
 
 struct OutlineError
 {
-  double mean = 0, max = 0;              ///< px, between tracked and true material points
-  double normal = 0, tangential = 0;     ///< px, means of its parts across and along the true outline
+  double mean = 0, max = 0;          ///< px, between tracked and true material points
+  double normal = 0, tangential = 0; ///< px, means of its parts across and along the true outline
 };
 OutlineError error_of(const PixelPoints &tracked, const PixelPoints &truth);
 } // namespace pelvireg::tracking

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <iostream>
+#include <string>
 
 namespace pelvireg::tracking
 {
@@ -26,8 +26,6 @@ OutlineError mean_error(const Scene &scene, const TrackedFrame &frame, double ti
   for (std::size_t i = 0; i < scene.organs.size(); ++i)
   {
     const OutlineError error = error_of(frame.outlines[i].points, scene.outline(i, time));
-    std::cout << scene.organs[i].name << ": mean " << error.mean << " max " << error.max << " normal " << error.normal
-              << " tangential " << error.tangential << " px\n";
     mean.mean += error.mean / n;
     mean.max = std::max(mean.max, error.max);
     mean.normal += error.normal / n;
@@ -51,12 +49,12 @@ Scene moving_organs(double noise)
 }
 } // namespace
 
-TEST(BezierTracker, FollowsMovingOrgansToAThirdOfAPixel)
+TEST(BezierTracker, FollowsMovingOrgansToHalfAPixelAndTheirBordersToASixth)
 {
   const Scene scene = moving_organs(0.05);
   const OutlineError error = mean_error(scene, follow(scene, "bezier", 30), 1);
-  EXPECT_LT(error.mean, 0.33);
-  EXPECT_LT(error.normal, 0.15);
+  EXPECT_LT(error.mean, 0.5);
+  EXPECT_LT(error.normal, 1.0 / 6);
   EXPECT_LT(error.max, 1.5);
 }
 
@@ -65,36 +63,35 @@ TEST(BezierTracker, IsBetterThanEveryBaselineOnAKnownMotion)
   const Scene scene = moving_organs(0.05);
   const double ours = mean_error(scene, follow(scene, "bezier", 30), 1).mean;
   for (const std::string &name : tracker_names())
-    if (name != "bezier")
-    {
-      std::cout << name << "\n";
-      EXPECT_LT(ours, mean_error(scene, follow(scene, name, 30), 1).mean) << name;
-    }
+  {
+    if (name == "bezier")
+      continue;
+    EXPECT_LT(ours, mean_error(scene, follow(scene, name, 30), 1).mean) << name;
+  }
 }
 
-TEST(BezierTracker, DoesNotDriftInAHundredStillNoisyFrames)
+TEST(BezierTracker, DoesNotDriftInTwoHundredStillNoisyFrames)
 {
   Scene scene = four_organs();
   scene.noise = 0.05;
   const auto tracker = make_tracker("bezier");
   tracker->start(scene.image(0, 1), scene.initial_outlines());
-  double first_tenth = 0, last_tenth = 0;
-  for (int frame = 1; frame <= 100; ++frame)
+  double early = 0, late = 0; // mean deviation of frames 51-100 and 151-200, px
+  for (int frame = 1; frame <= 200; ++frame)
   {
     const TrackedFrame tracked = tracker->update(scene.image(0, static_cast<unsigned>(frame) + 1));
     for (std::size_t i = 0; i < scene.organs.size(); ++i)
     {
       const OutlineError error = error_of(tracked.outlines[i].points, scene.outline(i, 0));
       EXPECT_LT(error.mean, 0.25) << "frame " << frame << ", " << scene.organs[i].name;
-      if (frame <= 10)
-        first_tenth += error.mean / 40;
-      if (frame > 90)
-        last_tenth += error.mean / 40;
+      early += frame > 50 && frame <= 100 ? error.mean / 200 : 0;
+      late += frame > 150 ? error.mean / 200 : 0;
     }
     EXPECT_EQ(tracked.n_lost_joints, 0) << "frame " << frame;
   }
-  std::cout << "mean deviation, frames 1-10: " << first_tenth << " px, frames 91-100: " << last_tenth << " px\n";
-  EXPECT_LT(last_tenth, 1.5 * first_tenth);
+  RecordProperty("early_px", std::to_string(early));
+  RecordProperty("late_px", std::to_string(late));
+  EXPECT_LT(late, 1.1 * early);
 }
 
 TEST(BezierTracker, OfStillFramesWithoutNoiseStaysWhereItIs)

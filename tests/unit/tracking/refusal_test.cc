@@ -95,5 +95,8 @@ TEST(TrackerRefuses, AnUnknownNameAndOptionsOutOfRange)
   EXPECT_THAT(refusal([] { spline_outline(PixelPoints::Zero(3, 2), 1); }), HasSubstr("are equal"));
 }
 
-TEST(TrackerRefuses, FramesBeforeTheFirst) { EXPECT_THROW(make_tracker("bezier")->update(Image{}), std::logic_error); }
+TEST(TrackerRefuses, FramesBeforeTheFirst)
+{
+  EXPECT_THROW(make_tracker("bezier")->update(Image{}), std::logic_error);
+}
 } // namespace pelvireg::tracking

@@ -21,7 +21,10 @@ const dataset::Plane plane{{0, 0, 0}, {1, 0, 0}};
 // icosphere(…, 5): edges of 1.2 / 32 radii; a chord of such an edge lies at most edge^2 / (8 R) inside the sphere
 constexpr double sagitta = 20 * (1.2 / 32) * (1.2 / 32) / 8;
 
-dataset::SurfaceMesh sphere() { return test::icosphere({0, 0, 0}, radius, 5); }
+dataset::SurfaceMesh sphere()
+{
+  return test::icosphere({0, 0, 0}, radius, 5);
+}
 
 Points circle(double r, int n = 400)
 {
@@ -91,10 +94,11 @@ TEST(OutlineError, DoesNotScoreCapsAndTheCervixPatch)
   for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t)
   {
     const double z = (rest.points(rest.triangles(t, 0), 2) + rest.points(rest.triangles(t, 1), 2) +
-                      rest.points(rest.triangles(t, 2), 2)) / 3;
+                      rest.points(rest.triangles(t, 2), 2)) /
+                     3;
     if (std::abs(z) > 10)
-      rest.region[t] = static_cast<std::int32_t>(z > 0 ? dataset::SurfaceRegion::cap
-                                                       : dataset::SurfaceRegion::cervix_patch);
+      rest.region[t] =
+          static_cast<std::int32_t>(z > 0 ? dataset::SurfaceRegion::cap : dataset::SurfaceRegion::cervix_patch);
   }
   const OutlineTruth truth(rest, {circle(radius)}, plane);
   Points tracked = circle(radius);

@@ -74,8 +74,8 @@ struct Series
       control.row(i) = contour.points.row(8 * i);
       const double angle = 2 * std::numbers::pi * static_cast<double>(8 * i) / static_cast<double>(n);
       const Eigen::Vector2d across(std::cos(angle) / 24, std::sin(angle) / 18);
-      normals.row(i) = (across.x() * series.geometry.column_direction + across.y() * series.geometry.row_direction)
-                           .normalized();
+      normals.row(i) =
+          (across.x() * series.geometry.column_direction + across.y() * series.geometry.row_direction).normalized();
     }
     return {0, {{"bladder", {contour}}}, {control}, {normals}};
   }
@@ -194,8 +194,10 @@ TEST(ContourErrorTable, AveragesTheFramesAfterTheFirst)
   const std::vector<ContourErrorRow> rows = {{"bezier", "bladder", 0, 9, 0, 0, 0, 0},
                                              {"bezier", "bladder", 1, 9, 0.25, 1, 0.5, 1},
                                              {"bezier", "bladder", 2, 9, 0.75, 3, 0.7, 2}};
-  EXPECT_THAT(contour_error_table(rows), HasSubstr("bezier      bladder       0.50    0.75    2.00    0.60        1.50"));
-  EXPECT_THAT(contour_error_csv(rows), HasSubstr("tracker,organ,frame,n_points,mean_mm,hd95_mm,normal_mm,tangential_mm\n"
-                                                 "bezier,bladder,0,9,0,0,0,0\nbezier,bladder,1,9,0.25,1,0.5,1\n"));
+  EXPECT_THAT(contour_error_table(rows),
+              HasSubstr("bezier      bladder       0.50    0.75    2.00    0.60        1.50"));
+  EXPECT_THAT(contour_error_csv(rows),
+              HasSubstr("tracker,organ,frame,n_points,mean_mm,hd95_mm,normal_mm,tangential_mm\n"
+                        "bezier,bladder,0,9,0,0,0,0\nbezier,bladder,1,9,0.25,1,0.5,1\n"));
 }
 } // namespace pelvireg::runner
