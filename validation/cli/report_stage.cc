@@ -1,4 +1,5 @@
 #include "validation/cli/stages.h"
+#include "validation/cli/track_stage.h"
 #include "validation/cli/version.h"
 #include "validation/report/pictures.h"
 #include "validation/report/report.h"
@@ -46,6 +47,11 @@ std::vector<report::ReportPicture> draw_pictures(const ResultDirectory &director
   std::vector<report::ReportPicture> pictures;
   for (const report::Picture &picture : report::picture_list())
     pictures.push_back({directory.path() / picture_folder / picture.file, picture.caption});
+  if (directory.has(tracked_picture))
+    pictures.push_back(
+        {directory.path() / tracked_picture,
+         "Dynamic images at rest, after a third and two thirds of the motion and at its end, with tracked "
+         "(solid) and true (dashed) outlines."});
   return pictures;
 }
 } // namespace
@@ -59,6 +65,8 @@ void make_report(ResultDirectory &directory, Judge &judge)
   std::vector<std::string> inputs = {"anatomy.h5", "truth.h5", "summary.json"};
   for (const std::string &estimate : estimate_files(directory))
     inputs.push_back(estimate);
+  if (directory.has(tracked_picture))
+    inputs.push_back(tracked_picture);
   directory.run({.name = "report",
                  .code = {"validation/metrics", "validation/runner", "validation/report", "synthetic/dataset"},
                  .options = options,

@@ -17,7 +17,6 @@ namespace pelvireg::cli
 {
 namespace
 {
-const std::string picture = "pictures/tracked_frames.png";
 const std::string images = "images/dyn.nrrd";
 
 /// Frames an increment, from the numbers of both.
@@ -86,7 +85,7 @@ Notes work(const std::filesystem::path &directory, const TrackRequest &request, 
     save(runner::observations_of(tracked, observations, per_increment), directory / "tracked.h5");
     dataset::write_text_file(directory / "tracked_points.csv", runner::tracked_point_csv(tracked));
     std::filesystem::create_directories(directory / "pictures");
-    report::write_overlay(series, overlay_of(tracked, observations, per_increment), directory / picture);
+    report::write_overlay(series, overlay_of(tracked, observations, per_increment), directory / tracked_picture);
   }
   dataset::write_text_file(directory / "contour_errors.csv", runner::contour_error_csv(errors));
   dataset::write_text_file(directory / "contour_table.txt", runner::contour_error_table(errors));
@@ -115,14 +114,15 @@ std::map<std::string, std::map<std::string, double>> last_errors(const std::file
 
 void make_tracked(ResultDirectory &directory, const TrackRequest &request)
 {
-  directory.run({.name = "track",
-                 .code = {"registration/tracking", "validation/metrics", "validation/runner", "validation/report",
-                          "synthetic/observation", "synthetic/dataset"},
-                 .options = fmt::format("tracker {} all {} uterus border {}", request.tracker, request.all,
-                                        request.uterus_border),
-                 .inputs = {"truth.h5", "observations.h5", images},
-                 .outputs = {"tracked.h5", "tracked_points.csv", "contour_errors.csv", "contour_table.txt", picture},
-                 .work = [&](Progress &progress) { return work(directory.path(), request, progress); }});
+  directory.run(
+      {.name = "track",
+       .code = {"registration/tracking", "validation/metrics", "validation/runner", "validation/report",
+                "synthetic/observation", "synthetic/dataset"},
+       .options =
+           fmt::format("tracker {} all {} uterus border {}", request.tracker, request.all, request.uterus_border),
+       .inputs = {"truth.h5", "observations.h5", images},
+       .outputs = {"tracked.h5", "tracked_points.csv", "contour_errors.csv", "contour_table.txt", tracked_picture},
+       .work = [&](Progress &progress) { return work(directory.path(), request, progress); }});
 }
 
 void print_contour_table(const ResultDirectory &directory)

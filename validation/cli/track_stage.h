@@ -8,6 +8,9 @@
 
 namespace pelvireg::cli
 {
+/// What the stage draws.
+inline const std::string tracked_picture = "pictures/tracked_frames.png";
+
 struct TrackRequest
 {
   std::string tracker = "bezier"; ///< whose outlines are kept

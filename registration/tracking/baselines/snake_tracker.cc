@@ -10,7 +10,7 @@ namespace pelvireg::tracking
 namespace
 {
 constexpr double spacing = 2; // px between the snake's points
-constexpr double blur = 1.5;  // px
+constexpr double blur = 1.0;  // px
 constexpr double tension = 0.05, bending = 0.1;
 constexpr double step = 1; // px moved by the force of a strong edge in one iteration
 constexpr int n_iterations = 40;

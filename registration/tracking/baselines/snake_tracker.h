@@ -6,7 +6,7 @@
 namespace pelvireg::tracking
 {
 /// From the outline of the frame before, a snake of points 2 px apart moves down the energy -|grad I|, of a frame seen
-/// through a Gaussian of 1.5 px, under tension and bending of its deviation from the outline at rest; semi-implicit
+/// through a Gaussian of 1 px, under tension and bending of its deviation from the outline at rest; semi-implicit
 /// steps. It knows edges alone: points move along the normal, and nothing tells which tissue an edge belongs to.
 class SnakeTracker : public OutlineTracker
 {
