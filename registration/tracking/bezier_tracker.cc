@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,15 +33,14 @@ bool is_inside(const PixelPoints &closed, const Vector2d &point)
   return inside;
 }
 
-/// Deformation of a joint's surroundings since the first frame: rotation and mean stretch of the neighbouring chord.
-Eigen::Matrix2d local_deformation(const BezierCurve &rest, const std::vector<Vector2d> &now, std::size_t joint)
+/// How a joint's surroundings have turned since the first frame: with the chord of its neighbours.
+Eigen::Matrix2d local_turn(const BezierCurve &rest, const std::vector<Vector2d> &now, std::size_t joint)
 {
   const std::size_t n = now.size(), next = (joint + 1) % n, before = (joint + n - 1) % n;
   const Vector2d a = rest.joints[next] - rest.joints[before], b = now[next] - now[before];
-  const double squared = std::max(a.squaredNorm(), 1e-12);
-  const Vector2d turn(a.dot(b) / squared, (a.x() * b.y() - a.y() * b.x()) / squared);
-  const Vector2d rotation = turn.norm() > 1e-6 ? turn.normalized() : Vector2d(1, 0);
-  return Eigen::Matrix2d{{rotation.x(), -rotation.y()}, {rotation.y(), rotation.x()}};
+  const Vector2d turn(a.dot(b), a.x() * b.y() - a.y() * b.x());
+  const Vector2d unit = turn.norm() > 1e-9 ? turn.normalized() : Vector2d(1, 0);
+  return Eigen::Matrix2d{{unit.x(), -unit.y()}, {unit.y(), unit.x()}};
 }
 } // namespace
 
@@ -74,11 +74,11 @@ void BezierTracker::do_start(const Image &first, const std::vector<InitialOutlin
 }
 
 BezierTracker::Sighting BezierTracker::look_for(const Organ &organ, std::size_t index, const Vector2d &start,
-                                                const Eigen::Matrix2d &deformation, const GreyImage &image) const
+                                                const Eigen::Matrix2d &turn, const GreyImage &image) const
 {
   const Joint &joint = organ.joints[index];
-  const PatchFinding finding = joint.is_lost ? joint.patch.search(image, start, deformation, search_radius)
-                                             : joint.patch.find(image, start, deformation);
+  const PatchFinding finding =
+      joint.is_lost ? joint.patch.search(image, start, turn, search_radius) : joint.patch.find(image, start, turn);
   const bool is_near = joint.is_lost || (finding.position - start).norm() < largest_correction;
   Sighting sighting;
   sighting.agreement = finding.is_in_image ? agreement_of(finding.squared_difference, noise_, tolerance_) : 0;
@@ -109,7 +109,7 @@ std::vector<Vector2d> BezierTracker::follow_joints(Organ &organ, const FlowPoint
     std::vector<JointMeasurement> measured(n);
     for (std::size_t i = 0; i < n; ++i)
     {
-      sightings[i] = look_for(organ, i, starts[i], local_deformation(organ.fit.curve, joints, i), image);
+      sightings[i] = look_for(organ, i, starts[i], local_turn(organ.fit.curve, joints, i), image);
       measured[i] = sightings[i].measurement;
     }
     joints = move_joints(organ.fit.curve.joints, organ.curve.joints, measured, {});

@@ -49,8 +49,8 @@ private:
     double agreement = 0;
     bool is_lost = true;
   };
-  Sighting look_for(const Organ &organ, std::size_t index, const Eigen::Vector2d &start,
-                    const Eigen::Matrix2d &deformation, const GreyImage &image) const;
+  Sighting look_for(const Organ &organ, std::size_t index, const Eigen::Vector2d &start, const Eigen::Matrix2d &turn,
+                    const GreyImage &image) const;
   /// Where the joints go; `flow` leads each from the last frame. Notes which are lost.
   std::vector<Eigen::Vector2d> follow_joints(Organ &organ, const FlowPoint *flow, const GreyImage &image,
                                              TrackedFrame &frame) const;

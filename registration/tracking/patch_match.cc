@@ -42,12 +42,12 @@ ReferencePatch::ReferencePatch(const GreyImage &first, const Eigen::Vector2d &ce
 }
 
 double ReferencePatch::squared_difference(const GreyImage &image, const Eigen::Vector2d &position,
-                                          const Eigen::Matrix2d &deformation) const
+                                          const Eigen::Matrix2d &turn) const
 {
   double sum = 0, weights = 0;
   for (std::size_t k = 0; k < values_.size(); ++k)
   {
-    const double difference = image(position + deformation * offsets()[k]) - values_[k];
+    const double difference = image(position + turn * offsets()[k]) - values_[k];
     sum += weights_[k] * difference * difference;
     weights += weights_[k];
   }
@@ -55,14 +55,12 @@ double ReferencePatch::squared_difference(const GreyImage &image, const Eigen::V
 }
 
 PatchFinding ReferencePatch::find(const GreyImage &image, const Eigen::Vector2d &start,
-                                  const Eigen::Matrix2d &deformation) const
+                                  const Eigen::Matrix2d &turn) const
 {
-  // A gradient of the first frame, seen in this one: F^-T times it.
-  const Eigen::Matrix2d turned = deformation.inverse().transpose();
   PatchFinding finding{.position = start};
   for (std::size_t k = 0; k < values_.size(); ++k)
     finding.structure += weights_[k] * gradients_[k] * gradients_[k].transpose();
-  finding.structure = turned * finding.structure * turned.transpose();
+  finding.structure = turn * finding.structure * turn.transpose();
   // Keeps the solution where it is along directions in which nothing is seen.
   const Eigen::Matrix2d system = finding.structure + 1e-3 * finding.structure.trace() * Eigen::Matrix2d::Identity();
   if (!(system.determinant() > 0))
@@ -72,8 +70,8 @@ PatchFinding ReferencePatch::find(const GreyImage &image, const Eigen::Vector2d 
   {
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
     for (std::size_t k = 0; k < values_.size(); ++k)
-      right += weights_[k] * (values_[k] - image(finding.position + deformation * offsets()[k])) * gradients_[k];
-    Eigen::Vector2d step = inverse * (turned * right);
+      right += weights_[k] * (values_[k] - image(finding.position + turn * offsets()[k])) * gradients_[k];
+    Eigen::Vector2d step = inverse * (turn * right);
     if (step.norm() > largest_step)
       step *= largest_step / step.norm();
     finding.position += step;
@@ -81,12 +79,12 @@ PatchFinding ReferencePatch::find(const GreyImage &image, const Eigen::Vector2d 
       break;
   }
   finding.is_in_image = image.contains(finding.position);
-  finding.squared_difference = squared_difference(image, finding.position, deformation);
+  finding.squared_difference = squared_difference(image, finding.position, turn);
   return finding;
 }
 
-PatchFinding ReferencePatch::search(const GreyImage &image, const Eigen::Vector2d &centre,
-                                    const Eigen::Matrix2d &deformation, int radius) const
+PatchFinding ReferencePatch::search(const GreyImage &image, const Eigen::Vector2d &centre, const Eigen::Matrix2d &turn,
+                                    int radius) const
 {
   Eigen::Vector2d best = centre;
   double least = std::numeric_limits<double>::infinity();
@@ -94,13 +92,13 @@ PatchFinding ReferencePatch::search(const GreyImage &image, const Eigen::Vector2
     for (int x = -radius; x <= radius; x += 2)
     {
       const Eigen::Vector2d start = centre + Eigen::Vector2d(x, y);
-      const double value = squared_difference(image, start, deformation);
+      const double value = squared_difference(image, start, turn);
       if (image.contains(start) && value < least)
       {
         least = value;
         best = start;
       }
     }
-  return find(image, best, deformation);
+  return find(image, best, turn);
 }
 } // namespace pelvireg::tracking

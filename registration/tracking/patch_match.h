@@ -27,17 +27,16 @@ public:
   /// Of the samples from the centre, px.
   static const std::vector<Eigen::Vector2d> &offsets();
 
-  /// Gauss-Newton from `start` over the two translations, with the patch turned and stretched by `deformation` (its
-  /// surroundings' deformation since the first frame).
-  PatchFinding find(const GreyImage &image, const Eigen::Vector2d &start, const Eigen::Matrix2d &deformation) const;
+  /// Gauss-Newton from `start` over the two translations, with the patch turned by `turn` (a rotation: its
+  /// surroundings' since the first frame).
+  PatchFinding find(const GreyImage &image, const Eigen::Vector2d &start, const Eigen::Matrix2d &turn) const;
 
   /// The best of a grid of starts up to `radius` px away, refined: for a joint that was lost.
-  PatchFinding search(const GreyImage &image, const Eigen::Vector2d &centre, const Eigen::Matrix2d &deformation,
+  PatchFinding search(const GreyImage &image, const Eigen::Vector2d &centre, const Eigen::Matrix2d &turn,
                       int radius) const;
 
 private:
-  double squared_difference(const GreyImage &image, const Eigen::Vector2d &position,
-                            const Eigen::Matrix2d &deformation) const;
+  double squared_difference(const GreyImage &image, const Eigen::Vector2d &position, const Eigen::Matrix2d &turn) const;
 
   std::vector<double> values_, weights_;
   std::vector<Eigen::Vector2d> gradients_;
