@@ -49,24 +49,13 @@ std::vector<double> corners_of(const ClosedSpline &spline, double bound, double 
 }
 
 /// A spline through samples a pixel apart, so that crowded points weigh no more than others.
-ClosedSpline spline_of(const PixelPoints &points, const ArcLength &arc, bool is_reversed)
+ClosedSpline spline_of(const PixelPoints &points, double perimeter, bool is_reversed)
 {
-  const Eigen::Index n = std::max<Eigen::Index>(32, std::lround(arc.perimeter));
-  PixelPoints samples(n, 2);
-  Eigen::VectorXd u(n);
-  Eigen::Index segment = 0;
-  for (Eigen::Index i = 0; i < n; ++i)
-  {
-    const double share = static_cast<double>(i) / static_cast<double>(n);
-    while (segment + 1 < points.rows() && arc.share[segment + 1] <= share)
-      ++segment;
-    const bool is_last = segment + 1 == points.rows();
-    const double end = is_last ? 1.0 : arc.share[segment + 1];
-    const double t = (share - arc.share[segment]) / std::max(end - arc.share[segment], 1e-12);
-    samples.row(i) = (1 - t) * points.row(segment) + t * points.row(is_last ? 0 : segment + 1);
-    u[i] = is_reversed && share > 0 ? 1 - share : share;
-  }
-  return {samples, u, std::max(8, static_cast<int>(std::lround(arc.perimeter / 4)))};
+  const Eigen::Index n = std::max<Eigen::Index>(32, std::lround(perimeter));
+  Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(n, 0, 1 - 1 / static_cast<double>(n));
+  if (is_reversed)
+    u.tail(n - 1) = 1 - u.tail(n - 1).array();
+  return {even_points(points, n), u, std::max(8, static_cast<int>(std::lround(perimeter / 4)))};
 }
 
 struct Joints
@@ -177,7 +166,7 @@ BezierFit fit_bezier(const InitialOutline &outline, const Options &options)
   if (is_reversed)
     for (double &value : u)
       value = value > 0 ? 1 - value : 0;
-  const ClosedSpline spline = spline_of(outline.points, arc, is_reversed);
+  const ClosedSpline spline = spline_of(outline.points, arc.perimeter, is_reversed);
   const double u_a_pixel = 1 / arc.perimeter;
   const Joints joints = joints_of(corners_of(spline, options.corner_curvature, 0.5 * options.joint_spacing * u_a_pixel),
                                   options.joint_spacing * u_a_pixel);

@@ -48,6 +48,24 @@ ArcLength::ArcLength(const PixelPoints &closed) : share(closed.rows())
   share /= perimeter;
 }
 
+PixelPoints even_points(const PixelPoints &closed, Eigen::Index n)
+{
+  const ArcLength arc(closed);
+  PixelPoints points(n, 2);
+  Eigen::Index segment = 0;
+  for (Eigen::Index i = 0; i < n; ++i)
+  {
+    const double share = static_cast<double>(i) / static_cast<double>(n);
+    while (segment + 1 < closed.rows() && arc.share[segment + 1] <= share)
+      ++segment;
+    const bool is_last = segment + 1 == closed.rows();
+    const double end = is_last ? 1.0 : arc.share[segment + 1];
+    const double t = (share - arc.share[segment]) / std::max(end - arc.share[segment], 1e-12);
+    points.row(i) = (1 - t) * closed.row(segment) + t * closed.row(is_last ? 0 : segment + 1);
+  }
+  return points;
+}
+
 ClosedSpline::ClosedSpline(const PixelPoints &points, const Eigen::VectorXd &u, int n_controls)
 {
   const int n = n_controls;

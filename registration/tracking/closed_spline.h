@@ -31,4 +31,7 @@ struct ArcLength
   Eigen::VectorXd share;
   double perimeter = 0;
 };
+
+/// n points at equal shares of a closed polyline's length, the first at its first point.
+PixelPoints even_points(const PixelPoints &closed, Eigen::Index n);
 } // namespace pelvireg::tracking

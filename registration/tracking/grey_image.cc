@@ -33,15 +33,16 @@ double agreement_of(double squared_difference, double noise, double tolerance)
   return std::exp(-std::max(0.0, squared_difference / usual - 1) / 2);
 }
 
-double contrast_of(const Image &image)
+double percentile_of(const Image &image, double share)
 {
   std::vector<float> values = image.pixels;
-  const auto percentile = [&](double share)
-  {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return static_cast<double>(*place);
-  };
-  return percentile(0.99) - percentile(0.01);
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+double contrast_of(const Image &image)
+{
+  return percentile_of(image, 0.99) - percentile_of(image, 0.01);
 }
 } // namespace pelvireg::tracking

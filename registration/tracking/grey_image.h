@@ -54,6 +54,8 @@ double noise_of(const Image &image);
 /// How well two places look alike, 1 … 0, from the mean squared difference of their values: 1 up to what noise (its
 /// standard deviation in either) and a tolerated change of signal explain.
 double agreement_of(double squared_difference, double noise, double tolerance);
+/// The value that `share` (0 … 1) of the pixels do not exceed.
+double percentile_of(const Image &image, double share);
 /// The 99th minus the 1st percentile.
 double contrast_of(const Image &image);
 } // namespace pelvireg::tracking

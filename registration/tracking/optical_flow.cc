@@ -79,17 +79,9 @@ std::vector<Eigen::Vector2d> FlowFrame::dense_inverse_search(const FlowFrame &ne
   return moved;
 }
 
-FlowScale::FlowScale(const Image &first)
+FlowScale::FlowScale(const Image &first) : low(percentile_of(first, 0.001))
 {
-  std::vector<float> values = first.pixels;
-  const auto percentile = [&](double share)
-  {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return static_cast<double>(*place);
-  };
-  low = percentile(0.001);
-  const double range = percentile(0.999) - low;
+  const double range = percentile_of(first, 0.999) - low;
   high = low + std::max(1.2 * range, 1e-6 * std::max(1.0, std::abs(low)));
 }
 } // namespace pelvireg::tracking

@@ -31,17 +31,7 @@ SnakeTracker::Snake SnakeTracker::make_snake(const PixelPoints &outline)
   const ArcLength arc(outline);
   const Eigen::Index m = std::max<Eigen::Index>(8, std::lround(arc.perimeter / spacing));
   Snake snake;
-  snake.rest.resize(m, 2);
-  Eigen::Index segment = 0;
-  for (Eigen::Index i = 0; i < m; ++i)
-  {
-    const double share = static_cast<double>(i) / static_cast<double>(m);
-    while (segment + 1 < outline.rows() && arc.share[segment + 1] <= share)
-      ++segment;
-    const double end = segment + 1 < outline.rows() ? arc.share[segment + 1] : 1;
-    const double t = (share - arc.share[segment]) / std::max(end - arc.share[segment], 1e-12);
-    snake.rest.row(i) = (1 - t) * outline.row(segment) + t * outline.row((segment + 1) % outline.rows());
-  }
+  snake.rest = even_points(outline, m);
   snake.points = snake.rest;
   snake.share.resize(outline.rows());
   snake.remainder.resize(outline.rows(), 2);
