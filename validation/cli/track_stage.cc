@@ -4,6 +4,7 @@
 #include "synthetic/dataset/error.h"
 #include "synthetic/dataset/estimate.h"
 #include "synthetic/observation/images/image_files.h"
+#include "validation/report/contour_error_figure.h"
 #include "validation/report/track_figures.h"
 #include "validation/runner/outline_tracking.h"
 
@@ -18,6 +19,7 @@ namespace pelvireg::cli
 namespace
 {
 const std::string images = "images/dyn.nrrd";
+const std::string error_figure = "pictures/contour_errors.svg";
 
 /// Frames an increment, from the numbers of both.
 int frames_per_increment(const dataset::ImageSeries &series, const dataset::Observations &observations)
@@ -89,6 +91,7 @@ Notes work(const std::filesystem::path &directory, const TrackRequest &request, 
   }
   dataset::write_text_file(directory / "contour_errors.csv", runner::contour_error_csv(errors));
   dataset::write_text_file(directory / "contour_table.txt", runner::contour_error_table(errors));
+  dataset::write_text_file(directory / error_figure, report::contour_error_figure(errors));
   return notes;
 }
 
@@ -114,15 +117,15 @@ std::map<std::string, std::map<std::string, double>> last_errors(const std::file
 
 void make_tracked(ResultDirectory &directory, const TrackRequest &request)
 {
-  directory.run(
-      {.name = "track",
-       .code = {"registration/tracking", "validation/metrics", "validation/runner", "validation/report",
-                "synthetic/observation", "synthetic/dataset"},
-       .options =
-           fmt::format("tracker {} all {} uterus border {}", request.tracker, request.all, request.uterus_border),
-       .inputs = {"truth.h5", "observations.h5", images},
-       .outputs = {"tracked.h5", "tracked_points.csv", "contour_errors.csv", "contour_table.txt", tracked_picture},
-       .work = [&](Progress &progress) { return work(directory.path(), request, progress); }});
+  directory.run({.name = "track",
+                 .code = {"registration/tracking", "validation/metrics", "validation/runner", "validation/report",
+                          "synthetic/observation", "synthetic/dataset"},
+                 .options = fmt::format("tracker {} all {} uterus border {}", request.tracker, request.all,
+                                        request.uterus_border),
+                 .inputs = {"truth.h5", "observations.h5", images},
+                 .outputs = {"tracked.h5", "tracked_points.csv", "contour_errors.csv", "contour_table.txt",
+                             tracked_picture, error_figure},
+                 .work = [&](Progress &progress) { return work(directory.path(), request, progress); }});
 }
 
 void print_contour_table(const ResultDirectory &directory)
