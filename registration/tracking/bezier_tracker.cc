@@ -53,7 +53,7 @@ BezierTracker::Organ BezierTracker::make_organ(const InitialOutline &outline) co
     std::vector<char> inside;
     for (const Vector2d &offset : ReferencePatch::offsets())
       inside.push_back(is_inside(outline.points, joint + offset));
-    organ.joints.push_back({ReferencePatch(first_, joint, inside)});
+    organ.joints.push_back({ReferencePatch(first_, joint, inside, noise_)});
   }
   return organ;
 }

@@ -18,6 +18,8 @@ constexpr int n_iterations = 4;
 constexpr double largest_shift = 1;    // px, asked for by one sample in one iteration
 constexpr double model_error = 0.15;   // px, of a profile's shift beside noise: partial volume, other neighbours
 constexpr double outside_weight = 0.5; // of taps beyond the border, where a neighbour may slide past
+constexpr double slope_noise = 0.22;   // variance of a mean slope, of noise seen through 0.7 px
+constexpr double largest_move = 4;     // px: a solution beyond is not believed
 constexpr double correlation = 0.5;    // independent samples a sample, after smoothing
 
 double angle_at(const BezierCurve &curve, std::size_t joint)
@@ -177,7 +179,7 @@ BorderFit::Shift BorderFit::wanted_shift(const GreyImage &image, const BezierCur
   std::array<double, n_taps + 2> now{};
   for (int tap = 0; tap < n_taps + 2; ++tap)
     now[static_cast<std::size_t>(tap)] = image(position + (first_tap + tap - 1) * normal);
-  double information = 0, right = 0, difference_sum = 0;
+  double information = 0, right = 0, difference_sum = 0, noise_information = 0;
   for (int tap = 1; tap < n_taps - 1; ++tap)
   {
     const std::size_t k = static_cast<std::size_t>(tap);
@@ -186,13 +188,15 @@ BorderFit::Shift BorderFit::wanted_shift(const GreyImage &image, const BezierCur
     const double slope = 0.25 * (now[k + 2] - now[k] + sample.profile[k + 1] - sample.profile[k - 1]);
     const double difference = sample.profile[k] - now[k + 1];
     information += weight * slope * slope;
+    noise_information += weight * slope_noise * noise_ * noise_;
     right += weight * slope * difference;
     difference_sum += weight * difference * difference;
   }
-  if (!(information > 0))
+  if (!(information > noise_information))
     return {};
   const double variance = 2 * noise_ * noise_ + 0.1 * tolerance_ * tolerance_;
-  const double precision = 1 / (variance / (correlation * information) + model_error * model_error);
+  const double precision =
+      1 / (variance / (correlation * (information - noise_information)) + model_error * model_error);
   // What does not look like the first frame has little to say.
   const double agreement = 1 / (1 + difference_sum / (n_taps * (variance + 4 * tolerance_ * tolerance_)));
   return {std::clamp(right / information, -largest_shift, largest_shift), precision * agreement};
@@ -229,6 +233,8 @@ BezierCurve BorderFit::adjust(const GreyImage &image, const BezierCurve &predict
                     shift.value, shift.precision);
     }
     const Eigen::VectorXd step = system.matrix.llt().solve(system.right);
+    if (!((moved + step).cwiseAbs().maxCoeff() < largest_move))
+      return predicted;
     moved += step;
     for (std::size_t i = 0; i < n; ++i)
     {

@@ -28,6 +28,7 @@ public:
 
   /// Moves joints along their normals and inner control points across their segments (paper, figure 3) to the minimum
   /// of profile differences, bending, and deviation from `predicted`. Segments without border follow their neighbours.
+  /// Gives `predicted` back when the minimum lies more than 4 px away.
   BezierCurve adjust(const GreyImage &image, const BezierCurve &predicted, const BorderPriors &priors) const;
 
   /// How well the profile at a place agrees with the first frame's: 0 … 1.

@@ -8,10 +8,18 @@ namespace pelvireg::tracking
 {
 namespace
 {
-constexpr int half_width = 7;        // px
-constexpr double window = 4.0;       // px, standard deviation of the Gaussian window
-constexpr double outside = 0.1;      // weight of what is not the organ's own
-constexpr double largest_step = 1.0; // px, of one iteration
+constexpr int half_width = 7;          // px
+constexpr double window = 4.0;         // px, standard deviation of the Gaussian window
+constexpr double outside = 0.1;        // weight of what is not the organ's own
+constexpr double gradient_noise = 0.8; // variance of a difference over a pixel, of noise seen through 0.7 px
+constexpr double largest_step = 1.0;   // px, of one iteration
+/// A structure tensor less what noise adds to it: along a straight border nothing may be left.
+Eigen::Matrix2d without_noise(const Eigen::Matrix2d &structure, double noise)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(structure);
+  const Eigen::Vector2d left = (axes.eigenvalues().array() - noise).max(0.0);
+  return axes.eigenvectors() * left.asDiagonal() * axes.eigenvectors().transpose();
+}
 } // namespace
 
 const std::vector<Eigen::Vector2d> &ReferencePatch::offsets()
@@ -28,7 +36,7 @@ const std::vector<Eigen::Vector2d> &ReferencePatch::offsets()
 }
 
 ReferencePatch::ReferencePatch(const GreyImage &first, const Eigen::Vector2d &centre,
-                               const std::vector<char> &is_inside)
+                               const std::vector<char> &is_inside, double noise)
 {
   for (std::size_t k = 0; k < offsets().size(); ++k)
   {
@@ -38,6 +46,7 @@ ReferencePatch::ReferencePatch(const GreyImage &first, const Eigen::Vector2d &ce
     values_.push_back(first(point));
     gradients_.push_back(first.gradient(point));
     weights_.push_back(first.contains(point) ? weight : 0);
+    noise_structure_ += weights_.back() * gradient_noise * noise * noise;
   }
 }
 
@@ -78,6 +87,7 @@ PatchFinding ReferencePatch::find(const GreyImage &image, const Eigen::Vector2d 
     if (step.squaredNorm() < 1e-4)
       break;
   }
+  finding.structure = without_noise(finding.structure, noise_structure_);
   finding.is_in_image = image.contains(finding.position);
   finding.squared_difference = squared_difference(image, finding.position, turn);
   return finding;

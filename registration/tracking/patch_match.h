@@ -22,7 +22,9 @@ class ReferencePatch
 {
 public:
   /// @param is_inside one a sample, row by row, see offsets()
-  ReferencePatch(const GreyImage &first, const Eigen::Vector2d &centre, const std::vector<char> &is_inside);
+  /// @param noise     standard deviation of the noise in `first`
+  ReferencePatch(const GreyImage &first, const Eigen::Vector2d &centre, const std::vector<char> &is_inside,
+                 double noise);
 
   /// Of the samples from the centre, px.
   static const std::vector<Eigen::Vector2d> &offsets();
@@ -39,6 +41,7 @@ private:
   double squared_difference(const GreyImage &image, const Eigen::Vector2d &position, const Eigen::Matrix2d &turn) const;
 
   std::vector<double> values_, weights_;
+  double noise_structure_ = 0; ///< what noise alone adds to either diagonal entry of the structure
   std::vector<Eigen::Vector2d> gradients_;
 };
 } // namespace pelvireg::tracking

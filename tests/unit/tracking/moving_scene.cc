@@ -12,8 +12,8 @@ using Eigen::Vector2d;
 
 double texture(const Vector2d &x)
 {
-  return 0.05 * (std::sin(0.9 * x.x() + 0.4 * x.y()) + std::sin(0.5 * x.x() - 0.8 * x.y() + 1) +
-                 std::sin(0.23 * x.x() * 1.7 + 0.31 * x.y() + 2));
+  return (std::sin(0.9 * x.x() + 0.4 * x.y()) + std::sin(0.5 * x.x() - 0.8 * x.y() + 1) +
+          std::sin(0.23 * x.x() * 1.7 + 0.31 * x.y() + 2));
 }
 
 double smooth_step(double distance)
@@ -33,7 +33,7 @@ double signal(const Scene &scene, const Vector2d &place)
     const double wall = smooth_step(inside), lumen = smooth_step(inside - organ.wall);
     value = (1 - wall) * value + wall * ((1 - lumen) * 0.27 + lumen * organ.filling);
   }
-  return value + texture(place);
+  return value + scene.texture * texture(place);
 }
 } // namespace
 

@@ -23,7 +23,8 @@ struct Scene
   /// Displacement (px) of the material point that starts at a place, at full time.
   std::function<Eigen::Vector2d(const Eigen::Vector2d &)> displacement = [](const Eigen::Vector2d &)
   { return Eigen::Vector2d(0, 0); };
-  double noise = 0; ///< standard deviation; the signal lies between 0.2 and 1
+  double texture = 0.05; ///< amplitude of each of three waves in the tissue
+  double noise = 0;      ///< standard deviation; the signal lies between 0.2 and 1
 
   /// At time 0 (rest) … 1, with noise drawn from `seed`.
   Image image(double time, unsigned seed) const;

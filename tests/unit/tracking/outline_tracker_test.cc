@@ -34,6 +34,16 @@ OutlineError mean_error(const Scene &scene, const TrackedFrame &frame, double ti
   return mean;
 }
 
+/// How close neighbouring points have come, as a share of their true distance: the least.
+double least_spacing(const PixelPoints &tracked, const PixelPoints &truth)
+{
+  double least = 1;
+  for (Eigen::Index i = 0, n = truth.rows(); i < n; ++i)
+    least = std::min(least, (tracked.row((i + 1) % n) - tracked.row(i)).norm() /
+                                (truth.row((i + 1) % n) - truth.row(i)).norm());
+  return least;
+}
+
 /// 12 px of shift, 12 degrees of rotation, stretch and bending.
 Scene moving_organs(double noise)
 {
@@ -92,6 +102,22 @@ TEST(BezierTracker, DoesNotDriftInTwoHundredStillNoisyFrames)
   RecordProperty("early_px", std::to_string(early));
   RecordProperty("late_px", std::to_string(late));
   EXPECT_LT(late, 1.1 * early);
+}
+
+TEST(BezierTracker, DoesNotTakeNoiseForTexture)
+{
+  Scene scene = moving_organs(0.05);
+  scene.texture = 0; // along a smooth border nothing tells where a point is
+  const auto tracker = make_tracker("bezier");
+  tracker->start(scene.image(0, 1), scene.initial_outlines());
+  for (int frame = 1; frame <= 120; ++frame)
+  {
+    const double time = std::min(1.0, frame / 30.0);
+    const TrackedFrame tracked = tracker->update(scene.image(time, static_cast<unsigned>(frame) + 1));
+    EXPECT_LT(mean_error(scene, tracked, time).normal, 0.25) << "frame " << frame;
+    for (std::size_t i = 0; i < scene.organs.size(); ++i)
+      EXPECT_GT(least_spacing(tracked.outlines[i].points, scene.outline(i, time)), 0.5) << "frame " << frame;
+  }
 }
 
 TEST(BezierTracker, OfStillFramesWithoutNoiseStaysWhereItIs)
