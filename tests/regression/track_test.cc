@@ -1,10 +1,9 @@
-// From images to outlines to errors, and a user's own images, through the program.
-#include "synthetic/dataset/observations.h"
+// A user's own images through the program, and what it says without images.
+#include "synthetic/observation/images/image_files.h"
 #include "tests/regression/program.h"
+#include "tests/unit/tracking/moving_scene.h"
 
 #include <fmt/format.h>
-
-#include <map>
 
 namespace pelvireg
 {
@@ -12,80 +11,77 @@ namespace
 {
 using ::testing::HasSubstr;
 
-/// A Slicer file with a few clicks on each rest outline, moved by `shift` mm along y.
-std::string clicks(const std::filesystem::path &observations, double shift = 0, const std::string &first_name = "")
+/// Four organs that move by 6 pixels of 1 mm in eight frames, in the plane x = 0.
+tracking::Scene scene()
+{
+  tracking::Scene organs = tracking::four_organs();
+  organs.noise = 0.03;
+  organs.displacement = [](const Eigen::Vector2d &) { return Eigen::Vector2d(5, 3); };
+  return organs;
+}
+
+void write_images(const std::filesystem::path &file)
+{
+  dataset::ImageSeries series;
+  series.geometry.columns = series.geometry.rows = scene().size;
+  series.slice_thickness_mm = 7;
+  series.description = "scene";
+  for (int frame = 0; frame <= 8; ++frame)
+  {
+    series.times_s.push_back(0.4 * frame);
+    const tracking::Image image = scene().image(frame / 8.0, static_cast<unsigned>(frame) + 1);
+    series.pixels.insert(series.pixels.end(), image.pixels.begin(), image.pixels.end());
+  }
+  observation::write_nrrd(series, file);
+}
+
+/// A Slicer file with a few clicks on each outline at rest, moved by `shift` mm.
+std::string clicks(double shift = 0, const std::string &first_name = "")
 {
   std::string markups;
-  for (const dataset::OrganOutline &outline : dataset::load_observations(observations).rest.outlines)
+  for (const tracking::InitialOutline &outline : scene().initial_outlines())
   {
-    const dataset::Points &points = outline.contours[0].points;
     std::string controls;
-    for (Eigen::Index i = 0; i < points.rows(); i += std::max<Eigen::Index>(1, points.rows() / 20))
-      controls += fmt::format("{}{{\"position\": [{}, {}, {}]}}", controls.empty() ? "" : ", ", points(i, 0),
-                              points(i, 1) + shift, points(i, 2));
+    for (Eigen::Index i = 0; i < outline.points.rows(); i += 4)
+      controls += fmt::format("{}{{\"position\": [0, {}, {}]}}", controls.empty() ? "" : ", ",
+                              outline.points(i, 0) + shift, -outline.points(i, 1));
     markups += fmt::format("{}{{\"type\": \"ClosedCurve\", \"name\": \"{}\", \"controlPoints\": [{}]}}",
                            markups.empty() ? "" : ", ",
                            markups.empty() && !first_name.empty() ? first_name : outline.organ, controls);
   }
   return "{\"@schema\": \"markups\", \"markups\": [" + markups + "]}";
 }
-
-/// Largest mean_mm of a tracker in contour_errors.csv, by organ.
-std::map<std::string, double> worst_means(const std::filesystem::path &file, const std::string &tracker)
-{
-  std::map<std::string, double> worst;
-  std::istringstream rows(content_of(file));
-  for (std::string row; std::getline(rows, row);)
-  {
-    std::istringstream fields(row);
-    std::string name, organ, skipped, mean;
-    std::getline(fields, name, ',');
-    std::getline(fields, organ, ',');
-    std::getline(fields, skipped, ',');
-    std::getline(fields, skipped, ',');
-    std::getline(fields, mean, ',');
-    if (name == tracker)
-      worst[organ] = std::max(worst[organ], std::stod(mean));
-  }
-  return worst;
-}
 } // namespace
 
-TEST_F(Program, TracksImagesOfACaseRegistersFromThemAndTakesAUsersOwn)
+TEST_F(Program, FollowsOutlinesThroughAUsersOwnImages)
 {
-  const Outcome run = call("run quick --out r --from images --snr 20 --conditions full --jobs 1");
-  ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("What tracking costs"));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "r/estimate-full_images.h5"));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "r/pictures/tracked_frames.png"));
-  for (const auto &[organ, mean] : worst_means(folder_ / "r/contour_errors.csv", "bezier"))
-    EXPECT_LE(mean, 1.5) << organ; // a pixel, in every frame
-  EXPECT_EQ(worst_means(folder_ / "r/contour_errors.csv", "snake").size(), 4u);
-
-  const std::string tracked = content_of(folder_ / "r/tracked.h5");
-  EXPECT_THAT(call("track r --all").out, HasSubstr("up to date"));
-  ASSERT_EQ(call("track r --tracker lk_joints").status, 0);
-  EXPECT_NE(content_of(folder_ / "r/tracked.h5"), tracked);
-  ASSERT_EQ(call("track r").status, 0);
-  EXPECT_EQ(content_of(folder_ / "r/tracked.h5"), tracked);
-
-  std::ofstream(folder_ / "organs.mrk.json") << clicks(folder_ / "r/observations.h5");
-  const Outcome own = call("track --nrrd r/images/dyn.nrrd --contours organs.mrk.json --out own");
+  write_images(folder_ / "dyn.nrrd");
+  std::ofstream(folder_ / "organs.mrk.json") << clicks();
+  const Outcome own = call("track --nrrd dyn.nrrd --contours organs.mrk.json --out own");
   ASSERT_EQ(own.status, 0) << own.err;
-  EXPECT_THAT(content_of(folder_ / "own/outlines/frame_0001.mrk.json"), HasSubstr("\"ClosedCurve\""));
-  // Outlines go in as they come out.
-  EXPECT_EQ(call("track --nrrd r/images/dyn.nrrd --contours own/outlines/frame_0000.mrk.json --out again").status, 0);
+  EXPECT_THAT(content_of(folder_ / "own/outlines/frame_0008.mrk.json"), HasSubstr("\"ClosedCurve\""));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "own/tracked_frames.png"));
+  // Outlines go in as they come out, and the same images give the same bytes.
+  EXPECT_EQ(call("track --nrrd dyn.nrrd --contours own/outlines/frame_0000.mrk.json --out again").status, 0);
+  ASSERT_EQ(call("track --nrrd dyn.nrrd --contours organs.mrk.json --out twice").status, 0);
+  EXPECT_EQ(content_of(folder_ / "own/tracked_points.csv"), content_of(folder_ / "twice/tracked_points.csv"));
+}
 
-  std::ofstream(folder_ / "away.mrk.json") << clicks(folder_ / "r/observations.h5", 900);
-  std::ofstream(folder_ / "liver.mrk.json") << clicks(folder_ / "r/observations.h5", 0, "liver");
-  expect_refused("track --nrrd r/images/dyn.nrrd --contours liver.mrk.json --out bad", "liver");
-  expect_refused("track --nrrd r/images/dyn.nrrd --contours away.mrk.json --out bad", "bladder");
-  expect_refused("track --nrrd r/images/dyn.nrrd --contours none.mrk.json --out bad", "cannot be read");
-  expect_refused("track --nrrd r/images/dyn.nrrd --out bad", "--contours is missing");
-  expect_refused("track --nrrd r/truth.h5 --contours organs.mrk.json --out bad", "truth.h5");
-  expect_refused("track r --nrrd r/images/dyn.nrrd", "either a result directory");
-  expect_refused("track r --tracker kalman", "kalman");
-  expect_refused("register r --outlines images --samples 3", "--samples");
+TEST_F(Program, RefusesToTrackWhatIsNotThere)
+{
+  write_images(folder_ / "dyn.nrrd");
+  std::ofstream(folder_ / "organs.mrk.json") << clicks();
+  std::ofstream(folder_ / "away.mrk.json") << clicks(900);
+  std::ofstream(folder_ / "liver.mrk.json") << clicks(0, "liver");
+  expect_refused("track --nrrd dyn.nrrd --contours liver.mrk.json --out bad", "liver");
+  expect_refused("track --nrrd dyn.nrrd --contours away.mrk.json --out bad", "outside the image");
+  expect_refused("track --nrrd dyn.nrrd --contours none.mrk.json --out bad", "cannot be read");
+  expect_refused("track --nrrd dyn.nrrd --out bad", "--contours is missing");
+  expect_refused("track --nrrd organs.mrk.json --contours organs.mrk.json --out bad", "organs.mrk.json");
+  expect_refused("track --nrrd dyn.nrrd --contours organs.mrk.json --tracker kalman --out bad", "kalman");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bad"));
+  ASSERT_EQ(call("anatomy quick --out r").status, 0);
+  expect_refused("track r --nrrd dyn.nrrd", "either a result directory");
+  expect_refused("register r --outlines images --samples 3", "--samples");
 }
 } // namespace pelvireg

@@ -21,7 +21,6 @@ struct Arguments
   SampleSettings settings;
   int jobs = 1;
   std::string from = "exact";
-  double snr = 20;
 };
 
 bool from_images(const Arguments &given)
@@ -76,10 +75,7 @@ void run_chain(const std::string &case_name, const std::filesystem::path &out, c
   make_truth(directory, given.jobs);
   make_observations(directory);
   if (from_images(given))
-  {
-    // TEMP make_images(directory, {.snr = given.snr}, given.jobs);
     make_tracked(directory, {.all = true});
-  }
   for (const RegisterRequest &request : requests)
     make_estimate(directory, request, given.jobs);
   Judge judge(given.jobs);
@@ -126,16 +122,15 @@ void add_run_command(CLI::App &program, Invocation &invocation)
   add_condition_option(*command, arguments->conditions);
   command
       ->add_option("--from", arguments->from,
-                   "exact: outlines are intersections with the truth. images: dynamic MR images are made and the "
-                   "organs tracked in them; the registration is driven by both, for comparison")
+                   "exact: outlines are intersections with the truth. images: the organs are also tracked in "
+                   "images/dyn.nrrd of the result directory; the registration is driven by both, for comparison")
       ->check(CLI::IsMember({"exact", "images"}))
       ->capture_default_str();
-  command->add_option("--snr", arguments->snr, "Signal-to-noise ratio of the images")->capture_default_str();
   add_sample_options(*command, arguments->settings);
   add_jobs_option(*command, arguments->jobs);
   command->footer("Examples:\n  pelvireg run quick\n  pelvireg run t005 --out out/t005 --jobs 2\n"
                   "  pelvireg run t005 --conditions all\n"
-                  "  pelvireg run t005 --from images --snr 20\n"
+                  "  pelvireg run t005 --from images\n"
                   "  pelvireg run all --conditions all --samples 100\n"
                   "  pelvireg run t005 --samples 100 --perturb modulus,surface,outline,plane\nA stage whose inputs "
                   "have not changed is not run again.");

@@ -128,7 +128,7 @@ void add_track_command(CLI::App &program, Invocation &invocation)
   const auto arguments = std::make_shared<Arguments>();
   CLI::App *command = program.add_subcommand(
       "track", "Follow the organs' outlines through dynamic MR images: tracked.h5, contour_errors.csv");
-  command->add_option("DIR", arguments->directory, "Result directory with images/dyn.nrrd (see 'pelvireg images')");
+  command->add_option("DIR", arguments->directory, "Result directory with images/dyn.nrrd");
   command->add_option("--tracker", arguments->request.tracker, "Whose outlines are kept; bezier is the paper's")
       ->check(CLI::IsMember(tracking::tracker_names()))
       ->capture_default_str();

@@ -27,7 +27,7 @@ int frames_per_increment(const dataset::ImageSeries &series, const dataset::Obse
   const std::size_t frames = series.times_s.size(), increments = observations.frames.size();
   if (increments == 0 || frames < 2 || (frames - 1) % increments != 0)
     throw InputError(fmt::format("track: '{}' has {} frames for {} increments, must have one and a multiple of the "
-                                 "increments; run 'pelvireg images' again",
+                                 "increments; make the images again",
                                  images, frames, increments));
   return static_cast<int>((frames - 1) / increments);
 }
