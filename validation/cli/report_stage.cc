@@ -1,4 +1,5 @@
 #include "validation/cli/stages.h"
+#include "validation/cli/track_stage.h"
 #include "validation/cli/version.h"
 #include "validation/report/figure_files.h"
 #include "validation/report/pictures.h"
@@ -86,6 +87,11 @@ std::vector<report::ReportPicture> draw_pictures(const ResultDirectory &director
   std::vector<report::ReportPicture> pictures;
   for (const report::Picture &picture : report::picture_list())
     pictures.push_back({directory.path() / picture_folder / picture.file, picture.caption});
+  if (directory.has(tracked_picture))
+    pictures.push_back(
+        {directory.path() / tracked_picture,
+         "Dynamic images at rest, after a third and two thirds of the motion and at its end, with tracked "
+         "(solid) and true (dashed) outlines."});
   return pictures;
 }
 /// What both stages read.
@@ -94,8 +100,9 @@ std::vector<std::string> inputs_of(const ResultDirectory &directory)
   std::vector<std::string> inputs = {"anatomy.h5", "truth.h5", "summary.json"};
   for (const std::string &estimate : estimate_files(directory))
     inputs.push_back(estimate);
-  if (directory.has("observations.h5"))
-    inputs.push_back("observations.h5");
+  for (const std::string file : {std::string("observations.h5"), tracked_picture})
+    if (directory.has(file))
+      inputs.push_back(file);
   return inputs;
 }
 

@@ -1,5 +1,6 @@
 #include "validation/cli/commands.h"
 #include "validation/cli/stages.h"
+#include "validation/cli/track_stage.h"
 
 #include <fmt/format.h>
 
@@ -48,6 +49,8 @@ void print_error_table(const ResultDirectory &directory)
     table << std::ifstream(directory.path() / file).rdbuf();
     fmt::print("\n{}", table.str());
   }
+  if (const std::string cost = tracking_cost_table(directory); !cost.empty())
+    fmt::print("\n{}", cost);
 }
 
 void add_stage_commands(CLI::App &program, Invocation &invocation)

@@ -73,7 +73,7 @@ const Judgement &Judge::of(const ResultDirectory &directory, Progress &progress)
 
 std::vector<std::string> stage_order()
 {
-  std::vector<std::string> names = {"anatomy", "reference", "observe"};
+  std::vector<std::string> names = {"anatomy", "reference", "observe", "images", "track"};
   for (const std::string &label : estimate_labels())
     names.push_back("register " + label);
   names.insert(names.end(), {"evaluate", "report"});
