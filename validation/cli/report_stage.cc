@@ -100,7 +100,7 @@ std::vector<std::string> inputs_of(const ResultDirectory &directory)
   std::vector<std::string> inputs = {"anatomy.h5", "truth.h5", "summary.json"};
   for (const std::string &estimate : estimate_files(directory))
     inputs.push_back(estimate);
-  for (const std::string file : {std::string("observations.h5"), tracked_picture})
+  for (const std::string &file : {std::string("observations.h5"), tracked_picture})
     if (directory.has(file))
       inputs.push_back(file);
   return inputs;

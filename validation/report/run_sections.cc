@@ -51,7 +51,7 @@ std::string facts_html(const runner::Evaluation &evaluation)
          fact("Motion", fmt::format("{} increments; the vagina moves {:.2f} mm in the image plane on average",
                                     evaluation.n_increments, evaluation.vaginal_displacement)) +
          fact("Registration", fmt::format("{} steps, {} nodes, {} of {} steps failed", evaluation.n_steps(),
-                                          evaluation.n_registration_nodes, n_failed, n_steps)) +
+                                          evaluation.n_registration_nodes(), n_failed, n_steps)) +
          fact("Conditions", runs_text(evaluation)) + "</dl>\n";
 }
 
