@@ -11,13 +11,25 @@ find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 find_library(UMFPACK_LIBRARY umfpack REQUIRED)
 find_library(OPENBLAS_LIBRARY openblas REQUIRED)
+# OpenCV by name: its CMake package wants every module installed.
+find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
+find_library(OPENCV_CORE_LIBRARY opencv_core REQUIRED)
+find_library(OPENCV_IMGPROC_LIBRARY opencv_imgproc REQUIRED)
+find_library(OPENCV_VIDEO_LIBRARY opencv_video REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(ZLIB REQUIRED)
 find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel FiltersCore IOHDF IOXML IOImage FiltersGeneral FiltersSources
+find_package(ZLIB REQUIRED)
+find_program(NODE node)
+find_program(NPM npm)
+if(NOT NODE OR NOT NPM)
+  message(FATAL_ERROR "node and npm, which bundle the script of the report's page, are not in PATH; install the Debian "
+                      "packages nodejs and npm (`./dev packages` does)")
+endif()
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel FiltersCore IOGeometry IOHDF IOXML IOImage FiltersGeneral FiltersSources
              RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation InteractionStyle)
 
 add_library(gmsh_api INTERFACE)
@@ -31,6 +43,10 @@ target_link_libraries(hdf5_serial INTERFACE ${HDF5_SERIAL_LIBRARY})
 add_library(suitesparse INTERFACE)
 target_include_directories(suitesparse SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
 target_link_libraries(suitesparse INTERFACE ${CHOLMOD_LIBRARY} ${UMFPACK_LIBRARY} ${OPENBLAS_LIBRARY})
+
+add_library(opencv_video_api INTERFACE)
+target_include_directories(opencv_video_api SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
+target_link_libraries(opencv_video_api INTERFACE ${OPENCV_VIDEO_LIBRARY} ${OPENCV_IMGPROC_LIBRARY} ${OPENCV_CORE_LIBRARY})
 
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)

@@ -47,6 +47,14 @@ void fill(const std::vector<RegionTriangle> &triangles, const std::map<int, int>
     surface.region[static_cast<Eigen::Index>(t)] = triangles[t].region;
   }
 }
+
+template <class Nodes> Eigen::VectorXd shares_at(const Eigen::VectorXd &share, const Nodes &nodes, std::int32_t region)
+{
+  if (share.size() == 0)
+    return Eigen::VectorXd::Constant(nodes.size(),
+                                     region == static_cast<std::int32_t>(dataset::SurfaceRegion::peritoneal));
+  return share(nodes.transpose());
+}
 } // namespace
 
 SurfaceNode shell_node(const dataset::ReferenceShell &shell, int first_unknown, int node, int side)
@@ -74,6 +82,16 @@ SurfaceFace solid_face(const dataset::ReferenceSolid &solid, int first_unknown, 
   for (int i = 0; i < 6; ++i)
     face.nodes.push_back(solid_node(solid, first_unknown, solid.faces(face_index, i)));
   return face;
+}
+
+Eigen::VectorXd pressure_shares(const dataset::ReferenceShell &shell, Eigen::Index cell)
+{
+  return shares_at(shell.pressure_share, shell.cells.row(cell), shell.region[cell]);
+}
+
+Eigen::VectorXd pressure_shares(const dataset::ReferenceSolid &solid, Eigen::Index face)
+{
+  return shares_at(solid.pressure_share, solid.faces.row(face), solid.region[face]);
 }
 
 std::vector<int> oriented_rim(const dataset::ReferenceShell &shell, const dataset::Integers &rim)

@@ -27,6 +27,10 @@ SurfaceNode solid_node(const dataset::ReferenceSolid &solid, int first_unknown, 
 SurfaceFace shell_face(const dataset::ReferenceShell &shell, int first_unknown, Eigen::Index cell, int side);
 SurfaceFace solid_face(const dataset::ReferenceSolid &solid, int first_unknown, Eigen::Index face);
 
+/// Shares of the abdominal pressure at the nodes of one outer face (dataset::ReferenceShell::pressure_share).
+Eigen::VectorXd pressure_shares(const dataset::ReferenceShell &shell, Eigen::Index cell);
+Eigen::VectorXd pressure_shares(const dataset::ReferenceSolid &solid, Eigen::Index face);
+
 /// A rim as a loop that begins at a corner node and runs as the adjacent cells run along it.
 /// Throws InputError when the rim is not a loop of cell edges.
 std::vector<int> oriented_rim(const dataset::ReferenceShell &shell, const dataset::Integers &rim);

@@ -95,7 +95,8 @@ Eigen::VectorXd PathWork::works_to(const State &next, bool is_straight) const
     double flux = 0; // rate of the volume that the loaded faces sweep outward
     for (std::size_t f = 0; f < next.faces.size(); ++f)
       flux += swept_rate(mix<Eigen::Matrix3Xd>(way.value, older.faces[f], last.faces[f], next.faces[f]),
-                         mix<Eigen::Matrix3Xd>(way.slope, older.faces[f], last.faces[f], next.faces[f]));
+                         mix<Eigen::Matrix3Xd>(way.slope, older.faces[f], last.faces[f], next.faces[f]),
+                         load_->shares()[f]);
     works[0] -= weight * mix(way.value, older.pressure, last.pressure, next.pressure) * flux;
     const Eigen::VectorXd q =
         mix<Eigen::VectorXd>(way.value, older.fluid_pressures, last.fluid_pressures, next.fluid_pressures);

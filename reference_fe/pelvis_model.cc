@@ -75,6 +75,29 @@ public:
     return faces;
   }
 
+  /// Outer faces that carry some abdominal pressure, with its shares at their nodes.
+  void append_loaded_faces(const std::string &part, std::vector<SurfaceFace> &faces,
+                           std::vector<Eigen::VectorXd> &shares) const
+  {
+    const auto append = [&](const Eigen::VectorXd &share, const SurfaceFace &face)
+    {
+      if (share.isZero(0))
+        return;
+      faces.push_back(face);
+      shares.push_back(share);
+    };
+    if (const auto found = shells_.find(part); found != shells_.end())
+    {
+      const auto &[shell, first] = found->second;
+      for (Eigen::Index c = 0; c < shell->cells.rows(); ++c)
+        append(pressure_shares(*shell, c), shell_face(*shell, first, c, +1));
+      return;
+    }
+    const auto &[solid, first] = solids_.at(part);
+    for (Eigen::Index f = 0; f < solid->faces.rows(); ++f)
+      append(pressure_shares(*solid, f), solid_face(*solid, first, f));
+  }
+
 private:
   static void hold(const std::string &part, const dataset::Integers &nodes, int first, int n_unknowns_a_node,
                    PelvisModel &model)
@@ -129,7 +152,10 @@ void add_elements(const ReferenceModel &reference, const Parts &parts, PelvisMod
     if (truss.part_b.empty())
       bar.fixed_end = truss.fixed_point;
     else
+    {
       bar.nodes.push_back(parts.node(truss.part_b, truss.node_b));
+      bar.nodes.back().rest += truss.offset_b;
+    }
     bar.area = truss.area;
     bar.material = reference.materials.at(truss.material);
     bar.tension_only = truss.tension_only;
@@ -220,13 +246,13 @@ void add_load(const dataset::Anatomy &anatomy, const Parts &parts, PelvisModel &
   // A length of 1 mm is compared as 1 N.
   model.pressure_unknown = model.system.add_unknowns(1, {"abdominal pressure"});
   std::vector<SurfaceFace> loaded;
+  std::vector<Eigen::VectorXd> shares;
   for (const std::string &name : part_names(anatomy.reference))
-    for (SurfaceFace &face : parts.outer_faces(name, SurfaceRegion::peritoneal))
-      loaded.push_back(std::move(face));
+    parts.append_loaded_faces(name, loaded, shares);
   if (loaded.empty())
     throw InputError("no part has a cell of region peritoneal, so nothing carries the abdominal pressure; mark the "
                      "peritoneal surfaces in the anatomy");
-  model.load = std::make_shared<FollowerPressure>(std::move(loaded), model.pressure_unknown);
+  model.load = std::make_shared<FollowerPressure>(std::move(loaded), model.pressure_unknown, std::move(shares));
   model.system.add_term(model.load);
   for (const OuterSurface &surface : model.surfaces)
     if (surface.part == "vagina")

@@ -4,9 +4,13 @@
 
 namespace pelvireg::reference_fe
 {
-FollowerPressure::FollowerPressure(std::vector<SurfaceFace> faces, int pressure_unknown)
-    : faces_(std::move(faces)), pressure_(pressure_unknown)
+FollowerPressure::FollowerPressure(std::vector<SurfaceFace> faces, int pressure_unknown,
+                                   std::vector<Eigen::VectorXd> shares)
+    : faces_(std::move(faces)), shares_(std::move(shares)), pressure_(pressure_unknown)
 {
+  if (shares_.empty())
+    for (const SurfaceFace &face : faces_)
+      shares_.push_back(Eigen::VectorXd::Ones(static_cast<Eigen::Index>(face.nodes.size())));
 }
 
 void FollowerPressure::unknowns(int item, std::vector<int> &indices) const
@@ -28,8 +32,9 @@ void FollowerPressure::evaluate(int item, const Eigen::VectorXd &solution, Local
   for (const FacePoint &q : face_quadrature(n))
   {
     const Eigen::Vector3d g1 = x * q.d_xi, g2 = x * q.d_eta;
-    const Eigen::Vector3d normal = q.weight * g1.cross(g2);
-    const Eigen::Matrix3d s1 = q.weight * p * skew(g1), s2 = q.weight * p * skew(g2);
+    const double weight = q.weight * q.value.dot(shares_[item]);
+    const Eigen::Vector3d normal = weight * g1.cross(g2);
+    const Eigen::Matrix3d s1 = weight * p * skew(g1), s2 = weight * p * skew(g2);
     for (int j = 0; j < n; ++j)
     {
       const Eigen::Matrix3d d_normal = q.d_eta[j] * s1 - q.d_xi[j] * s2;
@@ -46,20 +51,21 @@ void FollowerPressure::evaluate(int item, const Eigen::VectorXd &solution, Local
 Eigen::Vector3d FollowerPressure::resultant(const Eigen::VectorXd &solution) const
 {
   Eigen::Vector3d area = Eigen::Vector3d::Zero();
-  for (const SurfaceFace &face : faces_)
+  for (std::size_t f = 0; f < faces_.size(); ++f)
   {
-    const Eigen::Matrix3Xd x = positions(face.nodes, solution);
+    const Eigen::Matrix3Xd x = positions(faces_[f].nodes, solution);
     for (const FacePoint &q : face_quadrature(static_cast<int>(x.cols())))
-      area += q.weight * Eigen::Vector3d(x * q.d_xi).cross(x * q.d_eta);
+      area += q.weight * q.value.dot(shares_[f]) * Eigen::Vector3d(x * q.d_xi).cross(x * q.d_eta);
   }
   return -solution[pressure_] * area;
 }
 
-double swept_rate(const Eigen::Matrix3Xd &positions, const Eigen::Matrix3Xd &velocities)
+double swept_rate(const Eigen::Matrix3Xd &positions, const Eigen::Matrix3Xd &velocities, const Eigen::VectorXd &shares)
 {
   double rate = 0;
   for (const FacePoint &q : face_quadrature(static_cast<int>(positions.cols())))
-    rate += q.weight * (velocities * q.value).dot(Eigen::Vector3d(positions * q.d_xi).cross(positions * q.d_eta));
+    rate += q.weight * q.value.dot(shares) *
+            (velocities * q.value).dot(Eigen::Vector3d(positions * q.d_xi).cross(positions * q.d_eta));
   return rate;
 }
 } // namespace pelvireg::reference_fe

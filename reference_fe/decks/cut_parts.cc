@@ -58,15 +58,16 @@ dataset::Anatomy cut_parts(const dataset::Anatomy &anatomy, const std::vector<st
     if (!has_a && !has_b)
       continue;
     if (!has_b && !truss.part_b.empty())
-      truss.fixed_point = rest_position(whole, truss.part_b, truss.node_b);
+      truss.fixed_point = rest_position(whole, truss.part_b, truss.node_b) + truss.offset_b;
     if (!has_a)
     {
-      truss.fixed_point = rest_position(whole, truss.part_a, truss.node_a);
+      truss.fixed_point = rest_position(whole, truss.part_a, truss.node_a) - truss.offset_b;
       truss.part_a = truss.part_b;
       truss.node_a = truss.node_b;
     }
     if (!has_a || !has_b)
     {
+      truss.offset_b.setZero();
       truss.part_b.clear();
       truss.node_b = -1;
     }

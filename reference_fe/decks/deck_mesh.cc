@@ -193,7 +193,7 @@ void DeckMesh::add_bars(const dataset::ReferenceModel &reference)
       fixed_points_.push_back({{bar.node_b}, {1}});
     }
     else
-      bar.node_b = bar_end(middle_point(truss.part_b, truss.node_b), rest(truss.part_b, truss.node_b));
+      bar.node_b = bar_end(middle_point(truss.part_b, truss.node_b), rest(truss.part_b, truss.node_b), truss.offset_b);
     bars_.push_back(std::move(bar));
     ++last_element_;
   }
@@ -260,11 +260,11 @@ int DeckMesh::add_node(const Eigen::Vector3d &position)
   return last_node_;
 }
 
-int DeckMesh::bar_end(const DeckPoint &point, const Eigen::Vector3d &rest)
+int DeckMesh::bar_end(const DeckPoint &point, const Eigen::Vector3d &rest, const Eigen::Vector3d &offset)
 {
-  if (point.is_node())
+  if (point.is_node() && offset.isZero(0))
     return point.nodes.front();
-  carried_nodes_.emplace_back(add_node(rest), point);
+  carried_nodes_.emplace_back(add_node(rest + offset), point);
   return carried_nodes_.back().first;
 }
 } // namespace pelvireg::reference_fe

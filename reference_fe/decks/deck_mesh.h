@@ -84,7 +84,9 @@ private:
   void add_bars(const dataset::ReferenceModel &reference);
   DeckPoint wall_point(const Wall &wall, int level, int node) const;
   int add_node(const Eigen::Vector3d &position);
-  int bar_end(const DeckPoint &point, const Eigen::Vector3d &rest);
+  /// Node at `rest` + `offset` that moves as `point`, whose own place is `rest`: a node of the wall where it can be.
+  int bar_end(const DeckPoint &point, const Eigen::Vector3d &rest,
+              const Eigen::Vector3d &offset = Eigen::Vector3d::Zero());
 
   std::map<int, Eigen::Vector3d> nodes_;
   std::vector<DeckBody> bodies_;

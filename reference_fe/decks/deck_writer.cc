@@ -2,6 +2,7 @@
 #include "reference_fe/decks/deck_mesh.h"
 #include "reference_fe/decks/deck_text.h"
 #include "reference_fe/decks/decks.h"
+#include "reference_fe/outer_surface.h"
 #include "synthetic/dataset/error.h"
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@ using dataset::ReferenceModel;
 using dataset::SurfaceRegion;
 
 constexpr int most_layers = 8;
+constexpr double least_share = 1e-9; ///< of the abdominal pressure on a face; within it of 1: the whole
 /// Different names stay different in the deck.
 void require_unique(const std::vector<std::string> &names, const char *kind)
 {
@@ -80,7 +82,7 @@ void write_header(DeckText &deck, const dataset::Anatomy &anatomy, const DeckLoa
   deck.line("** Units mm, N, MPa, tonne, s. Frame LPS (+x left, +y posterior, +z superior).");
   deck.line("** Given: shells as C3D20R, {} through the wall; solids as C3D10; bars as {} on the mid-surface;",
             options.layers, options.springs ? "SPRINGA" : "T3D2");
-  deck.line("**   supports, ties, follower pressure (abdominal, on the peritoneal faces), {} steps with NLGEOM.",
+  deck.line("**   supports, ties, follower pressure (abdominal, a mean share a face), {} steps with NLGEOM.",
             loads.pressure.size());
   deck.line("**   Energy sum C_i0 (I1bar - 3)^i + (J - 1)^2 / D1 with D1 = 2 / kappa, as the reference's own.");
   deck.line("** Not given: contact between parts ({}).", joined(reference.contact_pairs));
@@ -217,6 +219,35 @@ const dataset::Integers &region_of(const ReferenceModel &reference, const std::s
       ->region;
 }
 
+/// Mean of a face's shares of the pressure over its area at rest.
+double mean_share(const SurfaceFace &face, const Eigen::VectorXd &shares)
+{
+  Eigen::Matrix3Xd x(3, shares.size());
+  for (Eigen::Index i = 0; i < shares.size(); ++i)
+    x.col(i) = face.nodes[static_cast<std::size_t>(i)].rest_position();
+  double sum = 0, area = 0;
+  for (const FacePoint &q : face_quadrature(static_cast<int>(shares.size())))
+  {
+    const double weight = q.weight * Eigen::Vector3d(x * q.d_xi).cross(Eigen::Vector3d(x * q.d_eta)).norm();
+    sum += weight * q.value.dot(shares);
+    area += weight;
+  }
+  return sum / area;
+}
+
+/// Mean share of the abdominal pressure on every outer face of a part, in the order of DeckBody::outer_faces.
+std::vector<double> mean_shares(const ReferenceModel &reference, const std::string &part)
+{
+  std::vector<double> shares;
+  for (const dataset::ReferenceShell &shell : reference.shells)
+    for (Eigen::Index c = 0; shell.name == part && c < shell.cells.rows(); ++c)
+      shares.push_back(mean_share(shell_face(shell, 0, c, +1), pressure_shares(shell, c)));
+  for (const dataset::ReferenceSolid &solid : reference.solids)
+    for (Eigen::Index f = 0; solid.name == part && f < solid.faces.rows(); ++f)
+      shares.push_back(mean_share(solid_face(solid, 0, f), pressure_shares(solid, f)));
+  return shares;
+}
+
 /// The patch of b follows whatever outer face of a it lies on, as in the reference.
 void write_ties(DeckText &deck, const DeckMesh &mesh, const ReferenceModel &reference)
 {
@@ -250,7 +281,16 @@ void write_loads(DeckText &deck, const DeckMesh &mesh, const ReferenceModel &ref
   write_amplitude(deck, "ABDOMINAL_PRESSURE", loads.pressure);
   for (const DeckBody &body : mesh.bodies())
   {
-    const std::vector<DeckFace> faces = outer_faces(body, region_of(reference, body.part), SurfaceRegion::peritoneal);
+    const std::vector<double> shares = mean_shares(reference, body.part);
+    std::vector<DeckFace> faces;
+    std::string partial;
+    for (std::size_t f = 0; f < shares.size(); ++f)
+      if (shares[f] > 1 - least_share)
+        faces.push_back(body.outer_faces[f]);
+      else if (shares[f] > least_share)
+        partial += fmt::format("\n{},P{},{:.9g}", body.outer_faces[f].element, body.outer_faces[f].number, shares[f]);
+    if (!partial.empty())
+      cards.push_back("*DLOAD, AMPLITUDE=ABDOMINAL_PRESSURE" + partial);
     if (!faces.empty())
     {
       write_surface(deck, surface_name(body.part, "PERITONEAL"), faces);

@@ -4,7 +4,10 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
 
 namespace pelvireg::anatomy
 {
@@ -14,11 +17,34 @@ using Eigen::Vector3i;
 namespace
 {
 constexpr double least_weight = 1e-6;
+constexpr int n_parts = 8; ///< of a cell, to either side
 
-/// Ring of a VTK_BIQUADRATIC_QUAD, whose last node is its centre.
-constexpr int quad_ring[8] = {0, 4, 1, 5, 2, 6, 3, 7};
-/// Quarters of a VTK_QUADRATIC_TRIANGLE.
-constexpr int triangle_quarters[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+using Shares = std::map<std::int32_t, double>;
+
+/// Quadratic and piecewise linear shape functions of three nodes at 0, 1/2, 1.
+std::array<double, 3> quadratic(double t)
+{
+  return {(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)};
+}
+std::array<double, 3> linear(double t)
+{
+  return {std::max(0., 1 - 2 * t), 1 - std::abs(2 * t - 1), std::max(0., 2 * t - 1)};
+}
+
+BarEnd end_of(const Vector3d &position, const Shares &shares)
+{
+  BarEnd end = {position, {}};
+  double sum = 0;
+  for (const auto &[node, weight] : shares)
+    if (weight > least_weight)
+    {
+      end.nodes.emplace_back(node, weight);
+      sum += weight;
+    }
+  for (auto &[node, weight] : end.nodes)
+    weight /= sum;
+  return end;
+}
 
 Vector3d barycentric(const Vector3d &p, const Vector3d &a, const Vector3d &b, const Vector3d &c)
 {
@@ -36,45 +62,120 @@ BarSurface::BarSurface(const dataset::ReferenceModel &model, const std::string &
     {
       points_ = shell.midsurface;
       for (Eigen::Index c = 0; c < shell.cells.rows(); ++c)
-        for (int k = 0; k < 8; ++k)
-          triangles_.emplace_back(shell.cells(c, quad_ring[k]), shell.cells(c, quad_ring[(k + 1) % 8]),
-                                  shell.cells(c, 8));
+        add_cell(shell.cells, c);
     }
   for (const dataset::ReferenceSolid &solid : model.solids)
     if (solid.name == part)
     {
       points_ = solid.points;
       for (Eigen::Index f = 0; f < solid.faces.rows(); ++f)
-        for (const auto &quarter : triangle_quarters)
-          triangles_.emplace_back(solid.faces(f, quarter[0]), solid.faces(f, quarter[1]), solid.faces(f, quarter[2]));
+        add_face(solid.faces, f);
+    }
+}
+
+/// VTK_BIQUADRATIC_QUAD.
+void BarSurface::add_cell(const dataset::Quads9 &cells, Eigen::Index cell)
+{
+  static constexpr int at[3][3] = {{0, 4, 1}, {7, 8, 5}, {3, 6, 2}}; // row, column
+  const auto first = static_cast<int>(samples_.size()), width = n_parts + 1;
+  for (int j = 0; j <= n_parts; ++j)
+    for (int i = 0; i <= n_parts; ++i)
+    {
+      const double s = static_cast<double>(i) / n_parts, t = static_cast<double>(j) / n_parts;
+      Vector3d position = Vector3d::Zero();
+      Shares shares;
+      for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+        {
+          const auto k = static_cast<std::size_t>(column), l = static_cast<std::size_t>(row);
+          const std::int32_t n = cells(cell, at[row][column]);
+          position += quadratic(s)[k] * quadratic(t)[l] * node(n);
+          shares[n] += linear(s)[k] * linear(t)[l];
+        }
+      samples_.push_back(end_of(position, shares));
+      if (i == n_parts || j == n_parts)
+        continue;
+      const int corner = first + j * width + i;
+      triangles_.emplace_back(corner, corner + 1, corner + width + 1);
+      triangles_.emplace_back(corner, corner + width + 1, corner + width);
+    }
+}
+
+/// VTK_QUADRATIC_TRIANGLE.
+void BarSurface::add_face(const dataset::Triangles6 &faces, Eigen::Index face)
+{
+  static constexpr int opposite[3] = {4, 5, 3}; // the mid-side node that lies opposite to a corner
+  std::map<std::pair<int, int>, int> sample_at;
+  for (int j = 0; j <= n_parts; ++j)
+    for (int i = 0; i + j <= n_parts; ++i)
+    {
+      const Vector3d l = Vector3d(n_parts - i - j, i, j) / n_parts;
+      Vector3d position = Vector3d::Zero();
+      Shares shares;
+      for (int k = 0; k < 3; ++k)
+      {
+        const double a = l[(k + 1) % 3], b = l[(k + 2) % 3];
+        position += l[k] * (2 * l[k] - 1) * node(faces(face, k)) + 4 * a * b * node(faces(face, opposite[k]));
+        // In the quarter at a corner its own hat is 2 l - 1; in the middle one the hats of the mid-sides are 1 - 2 l.
+        const int corner = l[0] >= 0.5 ? 0 : l[1] >= 0.5 ? 1 : l[2] >= 0.5 ? 2 : -1;
+        shares[faces(face, k)] += k == corner ? 2 * l[k] - 1 : 0;
+        shares[faces(face, opposite[k])] += corner < 0 ? 1 - 2 * l[k] : k == corner ? 0 : 2 * l[3 - k - corner];
+      }
+      sample_at[{i, j}] = static_cast<int>(samples_.size());
+      samples_.push_back(end_of(position, shares));
+    }
+  for (int j = 0; j < n_parts; ++j)
+    for (int i = 0; i + j < n_parts; ++i)
+    {
+      const int a = sample_at.at({i, j}), b = sample_at.at({i + 1, j}), c = sample_at.at({i, j + 1});
+      triangles_.emplace_back(a, b, c);
+      if (i + j + 2 <= n_parts)
+        triangles_.emplace_back(b, sample_at.at({i + 1, j + 1}), c);
     }
 }
 
 BarEnd BarSurface::closest(const Vector3d &point) const
 {
-  BarEnd end;
+  Vector3d position = Vector3d::Zero();
   const Vector3i *best = nullptr;
   double least = std::numeric_limits<double>::infinity();
+  const auto sample = [&](int i) -> const BarEnd & { return samples_[static_cast<std::size_t>(i)]; };
   for (const Vector3i &triangle : triangles_)
   {
-    const Vector3d nearest = nearest_on_triangle(point, node(triangle[0]), node(triangle[1]), node(triangle[2]));
+    const Vector3d nearest = nearest_on_triangle(point, sample(triangle[0]).position, sample(triangle[1]).position,
+                                                 sample(triangle[2]).position);
     if (const double distance = (nearest - point).squaredNorm(); distance < least)
     {
       least = distance;
-      end.position = nearest;
+      position = nearest;
       best = &triangle;
     }
   }
-  const Vector3d weights = barycentric(end.position, node((*best)[0]), node((*best)[1]), node((*best)[2]));
-  double sum = 0;
+  const Vector3d weights =
+      barycentric(position, sample((*best)[0]).position, sample((*best)[1]).position, sample((*best)[2]).position);
+  Shares shares;
   for (int k = 0; k < 3; ++k)
-    if (weights[k] > least_weight)
+    for (const auto &[node, share] : sample((*best)[k]).nodes)
+      shares[node] += std::max(0., weights[k]) * share;
+  return end_of(position, shares);
+}
+
+BarEnd closest_on_loop(const dataset::Points &points, const dataset::Integers &loop, const Vector3d &point)
+{
+  BarEnd end;
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < loop.size(); ++i)
+  {
+    const std::int32_t from = loop[i], to = loop[(i + 1) % loop.size()];
+    const Vector3d a = points.row(from).transpose(), along = points.row(to).transpose() - a;
+    const double t = std::clamp((point - a).dot(along) / along.squaredNorm(), 0., 1.);
+    const Vector3d nearest = a + t * along;
+    if (const double distance = (nearest - point).squaredNorm(); distance < least)
     {
-      end.nodes.emplace_back((*best)[k], weights[k]);
-      sum += weights[k];
+      least = distance;
+      end = end_of(nearest, {{from, 1 - t}, {to, t}});
     }
-  for (auto &[index, weight] : end.nodes)
-    weight /= sum;
+  }
   return end;
 }
 } // namespace pelvireg::anatomy

@@ -10,15 +10,16 @@
 
 namespace pelvireg::anatomy
 {
-/// A surface point and the nodes that carry what is attached there: barycentric weights, positive, sum 1.
+/// A surface point and the nodes that carry what is attached there: positive weights, sum 1.
 struct BarEnd
 {
   Eigen::Vector3d position; ///< mm
   std::vector<std::pair<std::int32_t, double>> nodes;
 };
 
-/// The mid-surface of a shell or the boundary of a solid, each quadratic face cut into triangles between its nodes. A
-/// bar that ends at a point and not at the nearest node pulls at the same place on every mesh.
+/// The curved mid-surface of a shell or boundary of a solid, searched through triangles an eighth of a cell wide. A bar
+/// that ends at a point and not at the nearest node pulls at the same place on every mesh. The point lies on the
+/// quadratic cell, not on its chords: a short bar would have another length on every mesh.
 class BarSurface
 {
 public:
@@ -28,7 +29,14 @@ public:
   Eigen::Vector3d node(std::int32_t index) const { return points_.row(index).transpose(); }
 
 private:
+  void add_cell(const dataset::Quads9 &cells, Eigen::Index cell);
+  void add_face(const dataset::Triangles6 &faces, Eigen::Index face);
+
   dataset::Points points_;
-  std::vector<Eigen::Vector3i> triangles_;
+  std::vector<BarEnd> samples_;            ///< points of the surface
+  std::vector<Eigen::Vector3i> triangles_; ///< between samples
 };
+
+/// The nearest point of a closed polygon of nodes, carried by the two nodes beside it.
+BarEnd closest_on_loop(const dataset::Points &points, const dataset::Integers &loop, const Eigen::Vector3d &point);
 } // namespace pelvireg::anatomy

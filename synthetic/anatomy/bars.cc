@@ -1,9 +1,12 @@
 // Bars of the reference: supports spread over their patches, urethra, membrane of the hiatus.
 #include "synthetic/anatomy/bar_ends.h"
+#include "synthetic/anatomy/organs.h"
+#include "synthetic/anatomy/outer_surface.h"
 #include "synthetic/anatomy/reference_parts.h"
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -17,6 +20,13 @@ using Eigen::Vector3d;
 
 namespace
 {
+// A border that passed from node to node would be another support on every mesh: sections fade out over these widths.
+constexpr double retropubic_facing = 0.8, retropubic_facing_fade = 0.2; // cosine between wall and bone
+constexpr double retropubic_fade = 12;                                  // mm
+constexpr double hiatus_fade = 4;                                       // mm
+constexpr int hiatus_stations = 72;                                     // about 3 mm of the rim each
+constexpr double least_area = 1e-3;                                     // mm^2, of a bar
+
 /// Share a bar out over the nodes around its end: parallel bars whose sections add up to its own.
 void append(const ReferenceTruss &bar, const BarEnd &end, const BarSurface &surface, std::vector<ReferenceTruss> &bars)
 {
@@ -79,59 +89,115 @@ void add_urethra(const Parameters &p, const ReferenceModel &model, std::vector<R
   }
 }
 
+/// Area of the mid-surface that falls to each node, int N_i dA by Simpson's rule, mm^2: all positive.
+Eigen::VectorXd nodal_areas(const dataset::ReferenceShell &shell)
+{
+  // Place of node k of a VTK_BIQUADRATIC_QUAD in a 3 x 3 grid, and derivatives of quadratics at -1, 0, 1.
+  constexpr int column[9] = {0, 2, 2, 0, 1, 2, 1, 0, 1}, row[9] = {0, 0, 2, 2, 0, 1, 2, 1, 1};
+  constexpr double slope[3][3] = {{-1.5, 2, -0.5}, {-0.5, 0, 0.5}, {0.5, -2, 1.5}},
+                   weight[3] = {1. / 3, 4. / 3, 1. / 3};
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(shell.midsurface.rows());
+  for (Eigen::Index c = 0; c < shell.cells.rows(); ++c)
+    for (int at = 0; at < 9; ++at)
+    {
+      Vector3d along = Vector3d::Zero(), across = Vector3d::Zero();
+      for (int k = 0; k < 9; ++k)
+      {
+        const Vector3d x = shell.midsurface.row(shell.cells(c, k)).transpose();
+        if (row[k] == row[at])
+          along += slope[column[at]][column[k]] * x;
+        if (column[k] == column[at])
+          across += slope[row[at]][row[k]] * x;
+      }
+      areas[shell.cells(c, at)] += weight[column[at]] * weight[row[at]] * along.cross(across).norm();
+    }
+  return areas;
+}
+
 /// The bladder lies on the pubic symphysis, a cushion of fat between: from each node that faces the bone five bars, one
 /// straight and four that spread like a pyramid: a cushion that resists pressure and shear and cannot snap through.
+/// Sections follow the area that falls to a node, and fade out at the cushion's border.
 void add_retropubic(const Parameters &p, const ReferenceModel &model, std::vector<ReferenceTruss> &bars)
 {
   const std::size_t first = bars.size();
   const Vector3d left = Vector3d::UnitX(), up = p.retropubic_normal.cross(left).normalized();
+  double total = 0;
   for (const dataset::ReferenceShell &shell : model.shells)
-    for (Eigen::Index n = 0; shell.name == "bladder" && n < shell.midsurface.rows(); ++n)
+  {
+    if (shell.name != "bladder")
+      continue;
+    const Eigen::VectorXd areas = nodal_areas(shell);
+    for (Eigen::Index n = 0; n < shell.midsurface.rows(); ++n)
     {
       const Vector3d node = shell.midsurface.row(n).transpose();
-      const bool is_facing = shell.directors.row(n).dot(p.retropubic_normal) < -0.8;
-      if (is_facing && std::abs(node.x()) < p.retropubic_half_width)
-        for (const Vector3d &aside : {Vector3d(Vector3d::Zero()), left, up, Vector3d(-left), Vector3d(-up)})
-          bars.push_back({"retropubic", "bladder", static_cast<std::int32_t>(n), "", -1,
-                          node + p.retropubic_depth * (aside - p.retropubic_normal), 0,
-                          p.material_of.at("retropubic")});
+      const double facing = -shell.directors.row(n).dot(p.retropubic_normal);
+      const double area = areas[n] * fade_in(facing, retropubic_facing, retropubic_facing_fade) *
+                          fade_in(-std::abs(node.x()), -p.retropubic_half_width, retropubic_fade);
+      if (area < least_area)
+        continue;
+      ReferenceTruss bar;
+      bar.group = "retropubic";
+      bar.part_a = "bladder";
+      bar.node_a = static_cast<std::int32_t>(n);
+      bar.area = area;
+      bar.material = p.material_of.at("retropubic");
+      for (const Vector3d &aside : {Vector3d(Vector3d::Zero()), left, up, Vector3d(-left), Vector3d(-up)})
+      {
+        bars.push_back(bar);
+        bars.back().fixed_point = node + p.retropubic_depth * (aside - p.retropubic_normal);
+        total += area;
+      }
     }
+  }
   for (std::size_t b = first; b < bars.size(); ++b)
-    bars[b].area = p.retropubic_area / static_cast<double>(bars.size() - first);
+    bars[b].area *= p.retropubic_area / total;
 }
 
-/// Length of a closed loop that falls to its node i, mm.
-double tributary_length(const dataset::Integers &loop, Eigen::Index i, const Points &points)
+/// A bar between points of two parts: parallel ones between the nodes that carry its ends.
+void append_between(const ReferenceTruss &bar, const BarEnd &a, const Points &points_a, const BarEnd &b,
+                    const BarSurface &surface_b, std::vector<ReferenceTruss> &bars)
 {
-  const Eigen::Index n = loop.size();
-  const auto distance = [&](Eigen::Index j)
-  { return (points.row(loop[(i + j + n) % n]) - points.row(loop[i])).norm(); };
-  return 0.5 * (distance(-1) + distance(1));
+  for (const auto &[node_a, weight_a] : a.nodes)
+    for (const auto &[node_b, weight_b] : b.nodes)
+    {
+      bars.push_back(bar);
+      bars.back().node_a = node_a;
+      bars.back().node_b = node_b;
+      bars.back().offset_b = b.position - a.position + points_a.row(node_a).transpose() - surface_b.node(node_b);
+      bars.back().area *= weight_a * weight_b;
+    }
 }
 
-/// From the rim of the hiatus to the closest points of vagina and anal canal within reach.
+/// From the rim of the hiatus to the closest points of vagina and anal canal within reach, at the same stations of the
+/// rim on every mesh.
 void add_hiatus(const Parameters &p, const ReferenceModel &model, std::vector<ReferenceTruss> &bars)
 {
-  const dataset::ReferenceShell *floor = nullptr;
-  for (const dataset::ReferenceShell &shell : model.shells)
-    if (shell.name == "pelvic_floor")
-      floor = &shell;
+  const auto floor = std::find_if(model.shells.begin(), model.shells.end(),
+                                  [](const dataset::ReferenceShell &shell) { return shell.name == "pelvic_floor"; });
   const std::set<std::int32_t> fixed(floor->fixed_nodes.data(), floor->fixed_nodes.data() + floor->fixed_nodes.size());
+  const std::vector<dataset::Integers> loops = boundary_loops(floor->cells);
+  const auto rim = std::find_if(loops.begin(), loops.end(),
+                                [&](const dataset::Integers &loop) { return fixed.count(loop[0]) == 0; });
+  const std::vector<Vector3d> stations = hiatus_rim(p.pelvic_floor, hiatus_stations);
   for (const std::string organ : {"vagina", "rectum"})
   {
     const BarSurface surface(model, organ);
-    for (const dataset::Integers &loop : boundary_loops(floor->cells))
-      for (Eigen::Index i = 0; i < loop.size() && fixed.count(loop[0]) == 0; ++i)
-      {
-        const Vector3d from = floor->midsurface.row(loop[i]).transpose();
-        const BarEnd end = surface.closest(from);
-        if ((end.position - from).norm() > p.hiatus_reach)
-          continue;
-        const double area = p.hiatus_area_per_length * tributary_length(loop, i, floor->midsurface);
-        for (const auto &[node, weight] : end.nodes)
-          bars.push_back({"hiatus", "pelvic_floor", loop[i], organ, node, Vector3d::Zero(), weight * area,
-                          p.material_of.at("hiatus")});
-      }
+    for (int i = 0; i < hiatus_stations; ++i)
+    {
+      const auto station = [&](int k)
+      { return stations[static_cast<std::size_t>((k + hiatus_stations) % hiatus_stations)]; };
+      const double length = ((station(i + 1) - station(i)).norm() + (station(i) - station(i - 1)).norm()) / 2;
+      const BarEnd from = closest_on_loop(floor->midsurface, *rim, station(i)), to = surface.closest(station(i));
+      const double reach = (to.position - station(i)).norm();
+      ReferenceTruss bar;
+      bar.group = "hiatus";
+      bar.part_a = "pelvic_floor";
+      bar.part_b = organ;
+      bar.area = p.hiatus_area_per_length * length * fade_in(-reach, -p.hiatus_reach, hiatus_fade);
+      bar.material = p.material_of.at("hiatus");
+      if (bar.area > least_area)
+        append_between(bar, from, floor->midsurface, to, surface, bars);
+    }
   }
 }
 } // namespace

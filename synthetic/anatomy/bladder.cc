@@ -7,7 +7,6 @@
 
 namespace pelvireg::anatomy
 {
-using dataset::SurfaceRegion;
 using Eigen::Vector3d;
 
 namespace
@@ -62,8 +61,8 @@ std::vector<Chart> bladder_charts(const BladderShape &shape, double size)
         d[(axis + 2) % 3] = std::tan((b - 0.5) * std::numbers::pi / 2);
         return bladder_surface(shape, d.normalized());
       };
-      chart.region = [=](const SurfacePoint &p)
-      { return p.position[2] > shape.peritoneal_above ? SurfaceRegion::peritoneal : SurfaceRegion::wall; };
+      carry_pressure(chart, [=](const SurfacePoint &p)
+                     { return fade_in(p.position[2], shape.peritoneal_above, shape.peritoneal_fade); });
       charts.push_back(chart);
     }
   return charts;

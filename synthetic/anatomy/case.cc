@@ -72,6 +72,7 @@ dataset::Anatomy build_anatomy(const std::string &text, const std::string &case_
   anatomy.n_slices_each_side = p.n_slices_each_side;
   anatomy.registration_steps_per_increment = p.steps_per_increment;
   anatomy.registration_time_step = p.time_step;
+  anatomy.registration_friction = p.friction_coefficient;
   anatomy.reference = make_reference(p);
   anatomy.registration = make_registration(p);
   return anatomy;

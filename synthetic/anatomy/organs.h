@@ -17,6 +17,8 @@ std::vector<Chart> uterus_charts(const UterusShape &uterus, const VaginaShape &v
 std::vector<Chart> rectum_charts(const RectumShape &shape, double size);
 /// The mid-surface, normals cranial.
 std::vector<Chart> floor_charts(const FloorShape &shape, double size);
+/// n points of the rim of the hiatus, once around.
+std::vector<Eigen::Vector3d> hiatus_rim(const FloorShape &shape, int n);
 
 /// The planar, elliptic patch in which the cervix ends on the straight anterior wall of the vagina.
 struct CervixPatch

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -22,7 +23,7 @@ constexpr double weld_tolerance = 1e-6; // mm
 class Welder
 {
 public:
-  std::int32_t add(const SurfacePoint &point)
+  std::int32_t add(const SurfacePoint &point, double pressure_share = 0)
   {
     const std::array<std::int64_t, 3> cell = cell_of(point.position);
     for (std::int64_t i = -1; i <= 1; ++i)
@@ -40,7 +41,13 @@ public:
     const auto node = static_cast<std::int32_t>(points_.size());
     nodes_[cell] = node;
     points_.push_back(point);
+    pressure_shares_.push_back(pressure_share);
     return node;
+  }
+
+  Eigen::VectorXd pressure_shares() const
+  {
+    return Eigen::Map<const Eigen::VectorXd>(pressure_shares_.data(), static_cast<Eigen::Index>(points_.size()));
   }
 
   void copy_to(dataset::Points &points, dataset::Points &normals) const
@@ -63,6 +70,7 @@ private:
   }
   std::map<std::array<std::int64_t, 3>, std::int32_t> nodes_;
   std::vector<SurfacePoint> points_;
+  std::vector<double> pressure_shares_;
 };
 
 /// Node indices of a regular grid of points on one chart, row by row.
@@ -71,7 +79,10 @@ std::vector<std::int32_t> weld_grid(const Chart &chart, int n_a, int n_b, Welder
   std::vector<std::int32_t> nodes;
   for (int j = 0; j <= n_b; ++j)
     for (int i = 0; i <= n_a; ++i)
-      nodes.push_back(welder.add(chart.evaluate(static_cast<double>(i) / n_a, static_cast<double>(j) / n_b)));
+    {
+      const SurfacePoint point = chart.evaluate(static_cast<double>(i) / n_a, static_cast<double>(j) / n_b);
+      nodes.push_back(welder.add(point, chart.pressure_share ? chart.pressure_share(point) : 0));
+    }
   return nodes;
 }
 
@@ -125,6 +136,19 @@ std::vector<Integers> chain(std::map<std::int32_t, BoundaryEdge> next)
 }
 } // namespace
 
+double fade_in(double at, double border, double width)
+{
+  const double t = std::clamp((at - border) / width + 0.5, 0., 1.);
+  return t * t * (3 - 2 * t);
+}
+
+void carry_pressure(Chart &chart, const std::function<double(const SurfacePoint &)> &share)
+{
+  chart.pressure_share = share;
+  chart.region = [share](const SurfacePoint &point)
+  { return share(point) > 0.5 ? dataset::SurfaceRegion::peritoneal : dataset::SurfaceRegion::wall; };
+}
+
 QuadraticMesh quadratic_mesh(const std::vector<Chart> &charts)
 {
   Welder welder;
@@ -148,6 +172,7 @@ QuadraticMesh quadratic_mesh(const std::vector<Chart> &charts)
   }
   QuadraticMesh mesh;
   welder.copy_to(mesh.points, mesh.normals);
+  mesh.pressure_share = welder.pressure_shares();
   mesh.cells.resize(static_cast<Eigen::Index>(cells.size()), 9);
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (int k = 0; k < 9; ++k)

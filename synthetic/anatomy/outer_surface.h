@@ -24,7 +24,14 @@ struct Chart
   int n_a = 1, n_b = 1; ///< quadrilaterals along a and b
   std::function<SurfacePoint(double, double)> evaluate;
   std::function<dataset::SurfaceRegion(const SurfacePoint &)> region; ///< of a cell, asked at its centre
+  /// Share of the abdominal pressure, 0 … 1, asked at each node; none: 0. Charts that meet agree on it.
+  std::function<double(const SurfacePoint &)> pressure_share;
 };
+
+/// From 0 to 1 around `border` over `width` (the slope is continuous): where the abdominal pressure sets in.
+double fade_in(double at, double border, double width);
+/// Charts on which the pressure fades in: `share` of it everywhere, region peritoneal where it is more than half.
+void carry_pressure(Chart &chart, const std::function<double(const SurfacePoint &)> &share);
 
 /// Nodes on the surface and quadratic quadrilaterals over them, counter-clockwise from outside.
 struct QuadraticMesh
@@ -33,6 +40,7 @@ struct QuadraticMesh
   dataset::Points normals; ///< averaged where charts meet
   dataset::Quads9 cells;
   dataset::Integers region;
+  Eigen::VectorXd pressure_share; ///< of the nodes
 };
 
 /// Nodes on the surface and linear triangles over them, counter-clockwise from outside.

@@ -46,6 +46,7 @@ BladderShape read_bladder(TableReader table)
   shape.impression_width = table.number("impression_width", {0.2, 2, false});
   shape.wall = table.number("wall", positive);
   shape.peritoneal_above = table.number("peritoneal_above", any_number);
+  shape.peritoneal_fade = table.number("peritoneal_fade", positive);
   check_wall(table, shape.wall, shape.semi_axes.minCoeff(), "semi_axes");
   if (shape.neck_direction.norm() == 0 || shape.impression_direction.norm() == 0)
     table.fail("neck_direction", "or impression_direction is zero; give a direction from the centre.");
@@ -88,6 +89,7 @@ UterusShape read_uterus(TableReader table)
   shape.stations = table.stations("stations", shape.half_widths.size(), "half_widths");
   shape.fundus_length = table.number("fundus_length", positive);
   shape.peritoneal_from = table.number("peritoneal_from", any_number);
+  shape.peritoneal_fade = table.number("peritoneal_fade", positive);
   if (shape.half_widths.front() != shape.half_depths.front())
     table.fail("half_depths[0]", "differs from half_widths[0], but the cervix is round at the patch; make them equal.");
   table.finish();
@@ -103,6 +105,7 @@ RectumShape read_rectum(TableReader table)
   shape.radius_stations = table.stations("radius_stations", shape.radii.size(), "radii");
   shape.wall = table.number("wall", positive);
   shape.peritoneal_above = table.number("peritoneal_above", any_number);
+  shape.peritoneal_fade = table.number("peritoneal_fade", positive);
   check_wall(table, shape.wall, *std::min_element(shape.radii.begin(), shape.radii.end()), "radii");
   table.finish();
   return shape;
@@ -225,6 +228,7 @@ void read_registration(TableReader table, Parameters &parameters)
   parameters.poisson_ratio = table.number("poisson_ratio", {0, 0.499, false});
   parameters.density = table.number("density", {0, 1e-6, true});
   parameters.time_step = table.number("time_step", {0, 10, true});
+  parameters.friction_coefficient = table.number("friction_coefficient", {0, 10, false});
   parameters.steps_per_increment = table.integer("steps_per_increment", 1, 100);
   parameters.n_control_points = table.integer("n_control_points", 10, 1000);
   if (table.has("insertion_shift"))

@@ -18,7 +18,8 @@ struct BladderShape
   double neck_width = 0;                ///< rad, on the unit sphere
   Eigen::Vector3d impression_direction; ///< where the uterus lies on it
   double impression_depth = 0, impression_width = 0;
-  double wall = 0, peritoneal_above = 0; ///< dome above this z carries the abdominal pressure
+  double wall = 0;
+  double peritoneal_above = 0, peritoneal_fade = 0; ///< the abdominal pressure sets in around this z, over this height
 };
 
 struct VaginaShape
@@ -38,7 +39,7 @@ struct UterusShape
   double cervix_sleeve = 0;                ///< length over which the sections turn into the plane of the patch
   std::vector<double> stations, half_widths, half_depths; ///< fraction of the axis from the patch, semi-axes
   double fundus_length = 0;                               ///< axial semi-axis of the rounded fundus
-  double peritoneal_from = 0;                             ///< axial distance beyond the internal os
+  double peritoneal_from = 0, peritoneal_fade = 0;        ///< axial distance beyond the internal os, and over which
 };
 
 struct RectumShape
@@ -46,7 +47,8 @@ struct RectumShape
   std::vector<Eigen::Vector3d> axis; ///< anal margin to rectosigmoid
   std::vector<double> fillet_radii;
   std::vector<double> radius_stations, radii;
-  double wall = 0, peritoneal_above = 0;
+  double wall = 0;
+  double peritoneal_above = 0, peritoneal_fade = 0; ///< as of the bladder
 };
 
 struct FloorShape
@@ -84,7 +86,8 @@ struct Parameters
   /// mm, from where a ligament or fascia really meets its organ (left side; mirrored in x on the right) to where the
   /// registration believes it does.
   Eigen::Vector3d insertion_shift = Eigen::Vector3d::Zero();
-  double time_step = 0.02, slice_pitch = 6;
+  double time_step = 0.02, friction_coefficient = 0; ///< of the registration, s, -
+  double slice_pitch = 6;
   int n_slices_each_side = 7;
 
   double reference_size = 0, uterus_size = 0; ///< mm

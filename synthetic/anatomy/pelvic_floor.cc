@@ -5,7 +5,6 @@
 
 namespace pelvireg::anatomy
 {
-using dataset::SurfaceRegion;
 using Eigen::Vector3d;
 
 namespace
@@ -46,7 +45,16 @@ std::vector<Chart> floor_charts(const FloorShape &shape, double size)
     return SurfacePoint{point(a, b), normal[2] < 0 ? Vector3d(-normal) : normal};
   };
   // The abdominal pressure reaches the whole cranial face through the fat that lies between it and the peritoneum.
-  chart.region = [](const SurfacePoint &) { return SurfaceRegion::peritoneal; };
+  carry_pressure(chart, [](const SurfacePoint &) { return 1.; });
   return {chart};
+}
+
+std::vector<Vector3d> hiatus_rim(const FloorShape &shape, int n)
+{
+  const std::vector<Vector3d> corners = mirrored(shape.hiatus);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < n; ++i)
+    points.push_back(closed_curve(corners, static_cast<double>(i) / n * static_cast<double>(corners.size())));
+  return points;
 }
 } // namespace pelvireg::anatomy

@@ -8,7 +8,6 @@
 
 namespace pelvireg::anatomy
 {
-using dataset::SurfaceRegion;
 using Eigen::Vector3d;
 
 std::vector<Chart> rectum_charts(const RectumShape &shape, double size)
@@ -37,11 +36,10 @@ std::vector<Chart> rectum_charts(const RectumShape &shape, double size)
     return SurfacePoint{point(b * length, 2 * std::numbers::pi * a),
                         normal_by_differences(map, 2 * std::numbers::pi * a, b * length, 1e-5, 1e-4)};
   };
-  chart.region = [=](const SurfacePoint &p)
-  {
-    const bool is_peritoneal = p.position[2] > shape.peritoneal_above && p.normal[1] < 0;
-    return is_peritoneal ? SurfaceRegion::peritoneal : SurfaceRegion::wall;
-  };
+  // Peritoneum covers the front, and leaves the sides between 30 degrees before and behind them.
+  carry_pressure(
+      chart, [=](const SurfacePoint &p)
+      { return fade_in(p.position[2], shape.peritoneal_above, shape.peritoneal_fade) * fade_in(-p.normal[1], 0, 1); });
   return {chart};
 }
 } // namespace pelvireg::anatomy

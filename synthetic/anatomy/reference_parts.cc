@@ -126,6 +126,7 @@ dataset::ReferenceShell make_shell(const std::string &name, const std::string &m
   shell.thickness = Eigen::VectorXd::Constant(mesh.points.rows(), thickness);
   shell.cells = mesh.cells;
   shell.region = mesh.region;
+  shell.pressure_share = mesh.pressure_share;
   return shell;
 }
 
@@ -172,6 +173,8 @@ dataset::ReferenceSolid make_solid(const std::string &name, const std::string &m
   solid.points.resize(static_cast<Eigen::Index>(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i)
     solid.points.row(static_cast<Eigen::Index>(i)) = points[i];
+  solid.pressure_share = Eigen::VectorXd::Zero(solid.points.rows());
+  solid.pressure_share.head(surface.points.rows()) = surface.pressure_share;
   const double least = unfold(solid.cells, solid.points);
   if (!(least > 0))
     throw ComputationError(

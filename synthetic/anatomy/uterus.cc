@@ -198,10 +198,9 @@ std::vector<Chart> uterus_charts(const UterusShape &uterus, const VaginaShape &v
   charts.push_back(chart_of(top, patch.centre, n_around, n_around));
   const Vector3d os = deviated(uterus.internal_os, patch.centre, uterus.deviation);
   const Vector3d body = (deviated(uterus.fundus, patch.centre, uterus.deviation) - os).normalized();
-  const double from = uterus.peritoneal_from;
+  const double from = uterus.peritoneal_from, fade = uterus.peritoneal_fade;
   for (Chart &chart : charts)
-    chart.region = [=](const SurfacePoint &p)
-    { return (p.position - os).dot(body) > from ? SurfaceRegion::peritoneal : SurfaceRegion::wall; };
+    carry_pressure(chart, [=](const SurfacePoint &p) { return fade_in((p.position - os).dot(body), from, fade); });
   for (const Chart &chart : patch_charts(surface, -patch.normal, n_around, count(patch.radius / 2, size)))
     charts.push_back(chart);
   return charts;

@@ -105,6 +105,7 @@ void save(const Anatomy &anatomy, const std::filesystem::path &file)
   root.integer("n_slices_each_side", anatomy.n_slices_each_side);
   root.integer("registration_steps_per_increment", anatomy.registration_steps_per_increment);
   root.number("registration_time_step_s", anatomy.registration_time_step);
+  root.number("registration_friction", anatomy.registration_friction);
   write_plane(root, "dyn_plane", anatomy.dyn_plane);
   write_reference(root.group("reference"), anatomy.reference);
   write_registration(root.group("registration"), anatomy.registration);
@@ -123,6 +124,7 @@ Anatomy load_anatomy(const std::filesystem::path &file)
   anatomy.n_slices_each_side = root.integer("n_slices_each_side");
   anatomy.registration_steps_per_increment = root.integer("registration_steps_per_increment");
   anatomy.registration_time_step = root.number("registration_time_step_s");
+  anatomy.registration_friction = root.number("registration_friction");
   anatomy.dyn_plane = read_plane(root, "dyn_plane");
   anatomy.reference = read_reference(root.group("reference"));
   anatomy.registration = read_registration(root.group("registration"));

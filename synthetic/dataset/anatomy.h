@@ -43,7 +43,10 @@ struct ReferenceShell
   Eigen::VectorXd thickness; ///< n, mm
   Quads9 cells;              ///< m x 9
   Integers region;           ///< m, SurfaceRegion of each cell (never cap: the wall ends at the rim)
-  Integers fixed_nodes;      ///< nodes whose mid-surface displacement is zero
+  /// Share of the abdominal pressure at each node, 0 … 1, interpolated over the cells as positions are. Empty: 1 on the
+  /// cells of region peritoneal, 0 elsewhere.
+  Eigen::VectorXd pressure_share;
+  Integers fixed_nodes; ///< nodes whose mid-surface displacement is zero
   /// Rims of the open ends, each an ordered closed loop of node indices (corner and mid-side nodes alternate).
   /// Empty for a closed shell. The cavity of the shell is bounded by zeta = -1 and by flat caps over these rims.
   std::vector<Integers> rims;
@@ -54,13 +57,14 @@ struct ReferenceShell
 /// A solid of the reference: quadratic tetrahedra.
 struct ReferenceSolid
 {
-  std::string name;     ///< "uterus"
-  std::string material; ///< key into ReferenceModel::materials
-  Points points;        ///< n x 3, mm
-  Tets10 cells;         ///< m x 10
-  Triangles6 faces;     ///< k x 6, closed outward boundary
-  Integers region;      ///< k, SurfaceRegion of each boundary face
-  Integers fixed_nodes; ///< may be empty
+  std::string name;               ///< "uterus"
+  std::string material;           ///< key into ReferenceModel::materials
+  Points points;                  ///< n x 3, mm
+  Tets10 cells;                   ///< m x 10
+  Triangles6 faces;               ///< k x 6, closed outward boundary
+  Integers region;                ///< k, SurfaceRegion of each boundary face
+  Eigen::VectorXd pressure_share; ///< n, as of a shell; only the boundary's count
+  Integers fixed_nodes;           ///< may be empty
 };
 
 /// One straight bar from a node of a part to a fixed point in space, or to a node of another part.
@@ -75,6 +79,9 @@ struct ReferenceTruss
   double area = 0;                                       ///< mm^2
   std::string material;                                  ///< key into ReferenceModel::materials
   bool tension_only = false;                             ///< slack in compression
+  /// mm, from node_b to where the bar ends at rest; the end moves as the node does. A bar between points that are no
+  /// nodes is made of parallel ones.
+  Eigen::Vector3d offset_b = Eigen::Vector3d::Zero();
 };
 
 /// What the reference solver needs beside the parts.
@@ -139,6 +146,7 @@ struct Anatomy
   int n_slices_each_side = 7;
   int registration_steps_per_increment = 3;
   double registration_time_step = 0.02; ///< s
+  double registration_friction = 0;     ///< Coulomb's coefficient between the registration's organs
   ReferenceModel reference;
   RegistrationModel registration;
 };

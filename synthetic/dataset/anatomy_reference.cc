@@ -87,6 +87,23 @@ std::vector<Integers> read_rims(const GroupReader &group, std::int64_t n_nodes)
   return rims;
 }
 
+/// Optional: absent where whole faces of region peritoneal carry the pressure.
+void write_pressure_share(GroupWriter &group, const Eigen::VectorXd &share)
+{
+  if (share.size() > 0)
+    group.array("pressure_share", share);
+}
+
+Eigen::VectorXd read_pressure_share(const GroupReader &group, Eigen::Index n_nodes)
+{
+  if (!group.has("pressure_share"))
+    return {};
+  Eigen::VectorXd share = group.array<Eigen::VectorXd>("pressure_share", n_nodes);
+  if (!(share.array() >= 0).all() || !(share.array() <= 1).all())
+    group.refuse("pressure_share", "leaves 0 to 1");
+  return share;
+}
+
 void write_shell(GroupWriter group, const ReferenceShell &shell)
 {
   group.text("material", shell.material);
@@ -97,6 +114,7 @@ void write_shell(GroupWriter group, const ReferenceShell &shell)
   group.array("thickness", shell.thickness);
   group.array("cells", shell.cells);
   group.array("region", shell.region);
+  write_pressure_share(group, shell.pressure_share);
   group.array("fixed_nodes", shell.fixed_nodes);
   write_rims(group, shell.rims);
 }
@@ -116,6 +134,7 @@ ReferenceShell read_shell(const GroupReader &group, const std::string &name)
   shell.region = group.indices<Integers>("region", n_regions);
   if (shell.region.size() != shell.cells.rows())
     group.refuse("region", "has not one entry a cell");
+  shell.pressure_share = read_pressure_share(group, n_nodes);
   shell.fixed_nodes = group.indices<Integers>("fixed_nodes", n_nodes);
   shell.rims = read_rims(group, n_nodes);
   return shell;
@@ -128,6 +147,7 @@ void write_solid(GroupWriter group, const ReferenceSolid &solid)
   group.array("cells", solid.cells);
   group.array("faces", solid.faces);
   group.array("region", solid.region);
+  write_pressure_share(group, solid.pressure_share);
   group.array("fixed_nodes", solid.fixed_nodes);
 }
 
@@ -143,6 +163,7 @@ ReferenceSolid read_solid(const GroupReader &group, const std::string &name)
   solid.region = group.indices<Integers>("region", n_regions);
   if (solid.region.size() != solid.faces.rows())
     group.refuse("region", "has not one entry a face");
+  solid.pressure_share = read_pressure_share(group, n_nodes);
   solid.fixed_nodes = group.indices<Integers>("fixed_nodes", n_nodes);
   return solid;
 }
@@ -152,10 +173,11 @@ void write_trusses(GroupWriter group, const std::vector<ReferenceTruss> &trusses
   std::vector<std::string> groups, parts_a, parts_b, materials;
   std::vector<std::int32_t> nodes_a, nodes_b, tension_only;
   std::vector<double> areas;
-  Points fixed_points(static_cast<Eigen::Index>(trusses.size()), 3);
+  Points fixed_points(static_cast<Eigen::Index>(trusses.size()), 3), offsets(fixed_points.rows(), 3);
   for (const ReferenceTruss &truss : trusses)
   {
     fixed_points.row(static_cast<Eigen::Index>(areas.size())) = truss.fixed_point;
+    offsets.row(static_cast<Eigen::Index>(areas.size())) = truss.offset_b;
     groups.push_back(truss.group);
     parts_a.push_back(truss.part_a);
     parts_b.push_back(truss.part_b);
@@ -171,6 +193,7 @@ void write_trusses(GroupWriter group, const std::vector<ReferenceTruss> &trusses
   group.texts("part_b", parts_b);
   group.integers("node_b", nodes_b);
   group.array("fixed_point", fixed_points);
+  group.array("offset_b", offsets);
   group.numbers("area", areas);
   group.texts("material", materials);
   group.integers("tension_only", tension_only);
@@ -192,6 +215,8 @@ std::vector<ReferenceTruss> read_trusses(const GroupReader &group)
   const std::vector<std::int32_t> tension_only = group.integers("tension_only", count);
   const std::vector<double> areas = group.numbers("area", count);
   const Points fixed_points = group.array<Points>("fixed_point", count);
+  const Points offsets =
+      group.has("offset_b") ? group.array<Points>("offset_b", count) : Points(Points::Zero(count, 3));
   std::vector<ReferenceTruss> trusses;
   for (std::size_t i = 0; i < groups.size(); ++i)
     trusses.push_back({.group = groups[i],
@@ -202,7 +227,8 @@ std::vector<ReferenceTruss> read_trusses(const GroupReader &group)
                        .fixed_point = fixed_points.row(static_cast<Eigen::Index>(i)),
                        .area = areas[i],
                        .material = materials[i],
-                       .tension_only = tension_only[i] != 0});
+                       .tension_only = tension_only[i] != 0,
+                       .offset_b = offsets.row(static_cast<Eigen::Index>(i))});
   return trusses;
 }
 

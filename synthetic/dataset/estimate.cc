@@ -24,4 +24,13 @@ Estimate load_estimate(const std::filesystem::path &file)
     estimate.samples.push_back(reader.sample(number));
   return estimate;
 }
+
+Estimate load_first_run(const std::filesystem::path &file)
+{
+  const EstimateReader reader(file);
+  Estimate estimate = reader.description();
+  if (!reader.numbers().empty())
+    estimate.samples.push_back(reader.sample(reader.numbers().front()));
+  return estimate;
+}
 } // namespace pelvireg::dataset

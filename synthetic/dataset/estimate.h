@@ -41,11 +41,14 @@ struct EstimateSurface
   std::vector<Points> positions; ///< n_steps x (n x 3), mm
 };
 
+/// The kind of an estimate whose outlines were tracked in images: nothing is drawn, every run has them.
+inline const std::string tracked_outlines = "images";
+
 /// What the randomised runs of an estimate were given instead of the truth, one thing at a time; 0 for all others. The
 /// draws are described where they are made (validation/runner/perturbation.h).
 struct Perturbation
 {
-  std::string kind = "modulus";          ///< "modulus", "surface", "outline" or "plane"
+  std::string kind = "modulus";          ///< "modulus", "surface", "outline", "plane" or tracked_outlines
   std::uint64_t seed = 1;                ///< run k depends on seed and k alone
   double modulus_spread = 0;             ///< Young's moduli times 1 + spread U(-1, 1)
   double surface_sd = 0;                 ///< mm, of the rest surfaces along their normal
@@ -91,4 +94,6 @@ struct Estimate
 /// The rest surfaces of the file are those of the first sample; a sample whose rest points differ keeps its own.
 void save(const Estimate &estimate, const std::filesystem::path &file);
 Estimate load_estimate(const std::filesystem::path &file);
+/// With its first run alone, which is the nominal one of a whole estimate; the others are not read.
+Estimate load_first_run(const std::filesystem::path &file);
 } // namespace pelvireg::dataset

@@ -22,6 +22,7 @@ struct DirectionRule
 };
 
 const std::vector<DirectionRule> direction_rules = {
+    {"registration/tracking/", {"registration/tracking/"}},
     {"registration/", {"registration/"}},
     {"reference_fe/", {"reference_fe/", "synthetic/dataset/"}},
     {"synthetic/dataset/", {"synthetic/dataset/"}},
@@ -30,12 +31,13 @@ const std::vector<DirectionRule> direction_rules = {
     {"validation/metrics/", {"validation/metrics/", "synthetic/dataset/"}},
     // The program links everything, but only through each folder's public entries.
     {"validation/cli/",
-     {"validation/", "synthetic/dataset/", "registration/registration.h", "reference_fe/reference.h",
-      "reference_fe/decks/decks.h", "synthetic/anatomy/case.h", "synthetic/observation/observe.h",
-      "synthetic/observation/images/image_files.h"}},
+     {"validation/", "synthetic/dataset/", "registration/registration.h", "registration/tracking/outline_tracker.h",
+      "reference_fe/reference.h", "reference_fe/decks/decks.h", "synthetic/anatomy/case.h",
+      "synthetic/observation/observe.h", "synthetic/observation/images/image_files.h",
+      "synthetic/observation/images/make_images.h"}},
     {"validation/",
      {"validation/metrics/", "validation/runner/", "validation/regression/", "validation/report/", "synthetic/dataset/",
-      "registration/registration.h"}},
+      "registration/registration.h", "registration/tracking/outline_tracker.h"}},
     {"tests/", {"tests/", "registration/", "reference_fe/", "synthetic/", "validation/"}},
 };
 

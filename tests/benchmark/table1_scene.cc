@@ -1,5 +1,7 @@
 #include "tests/benchmark/table1_scene.h"
 
+#include "validation/runner/table_one.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -305,10 +307,13 @@ template <class AnyModel> void add_contact_pairs(AnyModel &model)
 
 Counts table1_counts(const std::string &data_set)
 {
-  if (data_set == "T005")
-    return {928, 740, 806, 894, 170, 288, 199};
-  if (data_set == "T007")
-    return {1789, 523, 772, 2205, 352, 326, 233};
+  for (const runner::TableOneColumn &column : runner::table_one)
+    if (data_set == column.data_set)
+    {
+      Counts counts;
+      std::copy(column.nodes.begin(), column.nodes.end(), counts.begin());
+      return counts;
+    }
   throw std::invalid_argument("data set '" + data_set + "' is not in Table 1; T005 and T007 are");
 }
 

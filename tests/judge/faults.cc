@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -78,6 +79,37 @@ ErrorResult with_longer_tail(ErrorResult result, const FamilyName &family, doubl
       point.p95 *= factor;
       point.max *= factor;
     }
+  return result;
+}
+
+ErrorResult with_nan(ErrorResult result, const FamilyName &family, std::size_t place, double CurvePoint::*figure)
+{
+  Curve &curve = result.curves.at(family).rbegin()->second;
+  curve[place % curve.size()].*figure = std::numeric_limits<double>::quiet_NaN();
+  return result;
+}
+
+ErrorResult without_organ(ErrorResult result, const std::string &organ)
+{
+  std::erase_if(result.curves, [&](const auto &entry) { return entry.first.organ == organ; });
+  return result;
+}
+
+ErrorResult shifted_by_one_step(ErrorResult result, const std::string &organ, bool early)
+{
+  for (auto &[name, family] : result.curves)
+    if (name.condition == "full" && name.axis == regression::Axis::step && name.organ == organ)
+      for (auto &[sample, curve] : family)
+      {
+        const Curve right = curve;
+        for (std::size_t i = 1; i < curve.size(); ++i)
+        {
+          CurvePoint &point = early ? curve[i - 1] : curve[i];
+          const int abscissa = point.abscissa;
+          point = early ? right[i] : right[i - 1];
+          point.abscissa = abscissa;
+        }
+      }
   return result;
 }
 

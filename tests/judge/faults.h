@@ -28,6 +28,17 @@ ErrorResult with_bump(ErrorResult result, const FamilyName &family, std::size_t 
 /// The 95th percentiles and maxima alone times `factor`: as many points are off, the worst of them farther.
 ErrorResult with_longer_tail(ErrorResult result, const FamilyName &family, double factor);
 
+/// One figure is not a number: at place `place` of the family's curve in its last run.
+ErrorResult with_nan(ErrorResult result, const FamilyName &family, std::size_t place,
+                     double CurvePoint::*figure = &CurvePoint::mean);
+
+/// Without the curves of one organ.
+ErrorResult without_organ(ErrorResult result, const std::string &organ);
+
+/// The curves by step of one organ in condition `full` one step early or late: step s has the figures of s + 1 or s
+/// - 1.
+ErrorResult shifted_by_one_step(ErrorResult result, const std::string &organ, bool early);
+
 /// Every error of sample s of a family times exp(sd g), g normal: the family's curves as a whole and each of their
 /// values scatter by half of the variance each. Depends on (seed, family, sample, abscissa) alone.
 ErrorResult with_noise(ErrorResult result, double sd, std::uint64_t seed);

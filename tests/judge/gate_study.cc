@@ -2,6 +2,7 @@
 // regression gate".
 //   gate_study DIR [DIR_OF_ANOTHER_PROCESSOR] — result directories with many randomised runs (200)
 #include "synthetic/dataset/error.h"
+#include "synthetic/dataset/geometry.h"
 #include "tests/judge/faults.h"
 #include "validation/cli/sha256.h"
 
@@ -90,7 +91,15 @@ std::vector<NamedFault> faults()
           {"+10 %, one family", one_family(1.10)},
           {"bump +20 % on a tenth", [](const ErrorResult &result, int trial) { return bumped(result, trial, 1.2); }},
           {"tail +10 %, one family", [](const ErrorResult &result, int trial)
-           { return with_longer_tail(result, family_of_trial(result, trial), 1.1); }}};
+           { return with_longer_tail(result, family_of_trial(result, trial), 1.1); }},
+          {"not-a-number, one value", [](const ErrorResult &result, int trial)
+           { return with_nan(result, family_of_trial(result, trial), static_cast<std::size_t>(trial / 16)); }},
+          {"an organ dropped", [](const ErrorResult &result, int trial)
+           { return without_organ(result, dataset::organ_names[static_cast<std::size_t>(trial) % 4]); }},
+          {"an organ one step early", [](const ErrorResult &result, int trial)
+           { return shifted_by_one_step(result, dataset::organ_names[static_cast<std::size_t>(trial) % 4], true); }},
+          {"an organ one step late", [](const ErrorResult &result, int trial)
+           { return shifted_by_one_step(result, dataset::organ_names[static_cast<std::size_t>(trial) % 4], false); }}};
 }
 
 /// The two sides of a trial before the fault.

@@ -36,26 +36,41 @@ class ManyRuns : public TranslatedCase
 protected:
   void SetUp() override { make_translated("base"); }
 
+  /// The program, running.
+  pid_t start(const std::vector<std::string> &arguments) const
+  {
+    const pid_t child = ::fork();
+    if (child != 0)
+      return child;
+    std::vector<char *> words = {const_cast<char *>(PELVIREG_PROGRAM)};
+    for (const std::string &argument : arguments)
+      words.push_back(const_cast<char *>(argument.c_str()));
+    words.push_back(nullptr);
+    if (::chdir(folder_.c_str()) == 0 && std::freopen("/dev/null", "w", stdout))
+      ::execv(PELVIREG_PROGRAM, words.data());
+    ::_exit(127);
+  }
+
   /// Start the program, kill it (SIGKILL) once `folder` holds `n` files.
   void kill_when(const std::vector<std::string> &arguments, const fs::path &folder, std::size_t n) const
   {
-    const pid_t child = ::fork();
-    if (child == 0)
-    {
-      std::vector<char *> words = {const_cast<char *>(PELVIREG_PROGRAM)};
-      for (const std::string &argument : arguments)
-        words.push_back(const_cast<char *>(argument.c_str()));
-      words.push_back(nullptr);
-      if (::chdir(folder_.c_str()) == 0 && std::freopen("/dev/null", "w", stdout))
-        ::execv(PELVIREG_PROGRAM, words.data());
-      ::_exit(127);
-    }
+    const pid_t child = start(arguments);
     int status = 0;
     while (n_files_in(folder) < n && ::waitpid(child, &status, WNOHANG) == 0)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ::kill(child, SIGKILL);
     ::waitpid(child, &status, 0);
     ASSERT_TRUE(WIFSIGNALED(status)) << "the program ended before it could be killed";
+  }
+
+  /// Start the program and kill it after a while, wherever it is then.
+  void kill_after(const std::vector<std::string> &arguments, std::chrono::milliseconds while_) const
+  {
+    const pid_t child = start(arguments);
+    std::this_thread::sleep_for(while_);
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
   }
 };
 } // namespace
@@ -145,6 +160,29 @@ TEST_F(ManyRuns, ARegisterThatIsKilledInTheMiddleGoesOnAndGivesTheSameBytes)
   fs::remove(folder_ / "seed" / "estimate-full.h5");
   EXPECT_THAT(call("register seed" + options).out, Not(HasSubstr("resumed")));
   EXPECT_TRUE(have_same_bytes(folder_ / "seed" / "estimate-full.h5", folder_ / "whole" / "estimate-full.h5"));
+}
+
+TEST_F(ManyRuns, AnEvaluateThatIsKilledAnywhereLeavesNoPartOfAFileAndGivesTheSameBytesAfterwards)
+{
+  ASSERT_EQ(call("register base --condition full,no_boundary_conditions --samples 4 --jobs 1").status, 0);
+  copy("base", "whole");
+  ASSERT_EQ(call("evaluate whole").status, 0);
+  const std::vector<std::string> results = {"errors_by_step.csv",     "errors_by_slice.csv", "metrics_by_step.csv",
+                                            "errors_by_distance.csv", "curves_by_step.csv",  "curves_by_slice.csv",
+                                            "summary.json",           "error_table.txt",     "condition_table.txt"};
+  for (const int milliseconds : {20, 60, 120, 250, 500})
+  {
+    kill_after({"evaluate", "base", "--jobs", "2"}, std::chrono::milliseconds(milliseconds));
+    for (const std::string &file : results)
+      EXPECT_TRUE(!fs::exists(folder_ / "base" / file) ||
+                  have_same_bytes(folder_ / "base" / file, folder_ / "whole" / file))
+          << file << " after " << milliseconds << " ms";
+  }
+  const Outcome again = call("evaluate base --jobs 2");
+  EXPECT_EQ(again.status, 0) << again.err;
+  for (const std::string &file : results)
+    EXPECT_TRUE(have_same_bytes(folder_ / "base" / file, folder_ / "whole" / file)) << file;
+  EXPECT_THAT(call("evaluate base").out, HasSubstr("evaluate: up to date"));
 }
 
 TEST_F(ManyRuns, AllConditionsRunFromOneCommandIntoOneTable)

@@ -1,6 +1,7 @@
 #include "synthetic/anatomy/case.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/stages.h"
+#include "validation/runner/node_table.h"
 
 #include <fmt/format.h>
 
@@ -39,6 +40,8 @@ void add_case_commands(CLI::App &program, Invocation &invocation)
           const std::string text = anatomy::case_text(arguments->case_name);
           ResultDirectory directory(arguments->out, invocation.command_line, ResultDirectory::Missing::create);
           make_anatomy(directory, case_label(arguments->case_name), text);
+          const dataset::Anatomy made = dataset::load_anatomy(directory.path() / "anatomy.h5");
+          fmt::print("\n{}", runner::node_table(runner::body_sizes(made.registration)));
         };
       });
 }

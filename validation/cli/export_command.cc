@@ -2,6 +2,7 @@
 #include "synthetic/dataset/atomic_file.h"
 #include "synthetic/dataset/error.h"
 #include "validation/cli/commands.h"
+#include "validation/report/export_gltf.h"
 #include "validation/report/export_vtk.h"
 #include "validation/report/pictures.h"
 
@@ -15,15 +16,28 @@ namespace pelvireg::cli
 {
 namespace
 {
+std::vector<dataset::Estimate> nominal_runs(const ResultDirectory &directory)
+{
+  std::vector<dataset::Estimate> estimates;
+  for (const std::string &file : estimate_files(directory))
+    estimates.push_back(dataset::load_first_run(directory.path() / file));
+  return estimates;
+}
+
 void export_for_paraview(const ResultDirectory &directory)
 {
   const std::filesystem::path folder = directory.path() / "vtk";
-  std::vector<dataset::Estimate> estimates;
-  for (const std::string &file : estimate_files(directory))
-    estimates.push_back(dataset::load_estimate(directory.path() / file));
   report::export_vtk(dataset::load_anatomy(directory.path() / "anatomy.h5"),
                      dataset::load_truth(directory.path() / "truth.h5"),
-                     dataset::load_observations(directory.path() / "observations.h5"), estimates, folder);
+                     dataset::load_observations(directory.path() / "observations.h5"), nominal_runs(directory), folder);
+  fmt::print("export: {}\n", folder.string());
+}
+
+void export_for_viewers(const ResultDirectory &directory)
+{
+  const std::filesystem::path folder = directory.path() / "gltf";
+  report::export_gltf(dataset::load_anatomy(directory.path() / "anatomy.h5"),
+                      dataset::load_truth(directory.path() / "truth.h5"), nominal_runs(directory), folder);
   fmt::print("export: {}\n", folder.string());
 }
 
@@ -106,10 +120,10 @@ void add_export_command(CLI::App &program, Invocation &invocation)
   command
       ->add_option(
           "--format", arguments->format,
-          "vtk: VTK XML files and .pvd collections for ParaView, in DIR/vtk; abaqus: input deck for Abaqus and "
-          "CalculiX, DIR/abaqus/pelvis.inp")
+          "vtk: VTK XML files and .pvd collections for ParaView, in DIR/vtk; gltf: the final state coloured by its "
+          "error, a .glb an estimate, in DIR/gltf; abaqus: input deck for Abaqus and CalculiX, DIR/abaqus/pelvis.inp")
       ->required()
-      ->check(CLI::IsMember({"vtk", "abaqus"}));
+      ->check(CLI::IsMember({"vtk", "gltf", "abaqus"}));
   command->add_option("--pressure", arguments->pressure,
                       "Deck: abdominal pressure at the last step, MPa, rising evenly; truth.h5's when not given");
   command->add_flag("--cavity-pressures", arguments->with_cavities,
@@ -122,6 +136,7 @@ void add_export_command(CLI::App &program, Invocation &invocation)
   command->add_option("--parts", arguments->parts, "Deck: these parts alone, bars to others end in space")
       ->delimiter(',');
   command->footer("Examples:\n  pelvireg export out/t005 --format vtk\n"
+                  "  pelvireg export out/t005 --format gltf\n"
                   "  pelvireg export out/t005 --format abaqus --cavity-pressures\n"
                   "  pelvireg export out/t005 --format abaqus --parts bladder --pressure -0.001\n"
                   "Contact and incompressible fluid are not in a deck; docs/decks.md says what is.");
@@ -130,12 +145,14 @@ void add_export_command(CLI::App &program, Invocation &invocation)
       {
         invocation.action = [&invocation, arguments, command]
         {
-          if (arguments->format == "vtk")
+          if (arguments->format != "abaqus")
             refuse_deck_options(*command);
           const ResultDirectory directory(arguments->directory, invocation.command_line,
                                           ResultDirectory::Missing::refuse);
           if (arguments->format == "vtk")
             export_for_paraview(directory);
+          else if (arguments->format == "gltf")
+            export_for_viewers(directory);
           else
             export_deck(directory, *arguments);
         };

@@ -19,6 +19,7 @@ struct Arguments
   std::vector<std::string> conditions = runner::default_conditions();
   SampleSettings settings;
   std::string shard;
+  std::string outlines = "exact";
   int jobs = 1;
 };
 
@@ -37,9 +38,19 @@ runner::Shard shard_of(const std::string &text)
   return shard;
 }
 
+std::vector<RegisterRequest> requests_of(const Arguments &given)
+{
+  const std::vector<std::string> conditions = expanded_conditions(given.conditions);
+  if (given.outlines == "exact")
+    return requests_of(conditions, given.settings);
+  if (given.settings.samples > 0 || !given.shard.empty())
+    throw InputError("--outlines images plays the nominal run alone; leave --samples and --shard out");
+  return tracked_requests_of(conditions);
+}
+
 void run_register(const Arguments &given, const std::string &command_line)
 {
-  const std::vector<RegisterRequest> requests = requests_of(expanded_conditions(given.conditions), given.settings);
+  const std::vector<RegisterRequest> requests = requests_of(given);
   if (given.shard.empty())
   {
     ResultDirectory directory(given.directory, command_line, ResultDirectory::Missing::refuse);
@@ -63,6 +74,12 @@ void add_register(CLI::App &program, Invocation &invocation)
   add_sample_options(*command, arguments->settings);
   command->add_option("--shard", arguments->shard,
                       "Play share i of n of the runs (i/n): shard-LABEL-i-of-n.h5 for 'pelvireg merge'");
+  command
+      ->add_option("--outlines", arguments->outlines,
+                   "exact: intersections with the truth (observations.h5); images: tracked in images (tracked.h5, see "
+                   "'pelvireg track'), for estimate-CONDITION_images.h5")
+      ->check(CLI::IsMember({"exact", "images"}))
+      ->capture_default_str();
   add_jobs_option(*command, arguments->jobs);
   command->footer("Examples:\n  pelvireg register out/t005\n  pelvireg register out/t005 --condition all\n"
                   "  pelvireg register out/t005 --samples 100 --spread 0.10 --seed 1 --jobs 2\n"

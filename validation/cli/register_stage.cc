@@ -19,7 +19,12 @@ namespace pelvireg::cli
 namespace
 {
 const std::vector<std::string> code = {"registration", "validation/runner", "synthetic/dataset"};
-const std::vector<std::string> inputs = {"anatomy.h5", "observations.h5"};
+
+/// What drives the registration.
+std::string outline_file(const dataset::Perturbation &perturbation)
+{
+  return perturbation.kind == dataset::tracked_outlines ? "tracked.h5" : "observations.h5";
+}
 
 std::string label_of(const RegisterRequest &request)
 {
@@ -36,9 +41,10 @@ std::string text_of(const dataset::Perturbation &perturbation)
                      perturbation.outline_sd, perturbation.plane_offset_sd, perturbation.plane_tilt_sd);
 }
 
-dataset::EstimatePart origin_of(ResultDirectory &directory, int samples, const runner::Shard &shard)
+dataset::EstimatePart origin_of(ResultDirectory &directory, const dataset::Perturbation &perturbation, int samples,
+                                const runner::Shard &shard)
 {
-  const FileDigests digests = directory.current(inputs);
+  const FileDigests digests = directory.current({"anatomy.h5", outline_file(perturbation)});
   std::string program = build() + "\n";
   for (const std::string &folder : code)
     program += folder + " " + source_digest(folder) + "\n";
@@ -46,7 +52,7 @@ dataset::EstimatePart origin_of(ResultDirectory &directory, int samples, const r
           .shard = shard.index,
           .n_shards = shard.n,
           .anatomy_sha256 = digests.at("anatomy.h5"),
-          .observations_sha256 = digests.at("observations.h5"),
+          .observations_sha256 = digests.at(outline_file(perturbation)),
           .program_sha256 = sha256_of_text(program),
           .nominal_step_ms = {}};
 }
@@ -65,7 +71,8 @@ runner::PartStore store_of(const ResultDirectory &directory, const runner::Regis
 runner::RegistrationRuns runs_of(const ResultDirectory &directory, const RegisterRequest &request)
 {
   return {dataset::load_anatomy(directory.path() / "anatomy.h5"),
-          dataset::load_observations(directory.path() / "observations.h5"), request.condition, request.perturbation};
+          dataset::load_observations(directory.path() / outline_file(request.perturbation)), request.condition,
+          request.perturbation};
 }
 
 /// Play what the store does not hold yet. Bad input leaves nothing behind, a kill or a full disk leaves what is done.
@@ -110,7 +117,7 @@ Stage stage_of(const RegisterRequest &request, std::function<Notes(Progress &)> 
   return {.name = "register " + label,
           .code = code,
           .options = fmt::format("samples {} of {}", request.samples, text_of(request.perturbation)),
-          .inputs = inputs,
+          .inputs = {"anatomy.h5", outline_file(request.perturbation)},
           .outputs = {"estimate-" + label + ".h5"},
           .work = std::move(work)};
 }
@@ -196,6 +203,14 @@ std::vector<dataset::Perturbation> SampleSettings::perturbations() const
   return chosen;
 }
 
+std::vector<RegisterRequest> tracked_requests_of(const std::vector<std::string> &conditions)
+{
+  std::vector<RegisterRequest> requests;
+  for (const std::string &condition : conditions)
+    requests.push_back({condition, {.kind = dataset::tracked_outlines}, 0});
+  return requests;
+}
+
 std::vector<RegisterRequest> requests_of(const std::vector<std::string> &conditions, const SampleSettings &settings)
 {
   std::vector<RegisterRequest> requests;
@@ -212,7 +227,8 @@ void make_estimate(ResultDirectory &directory, const RegisterRequest &request, i
   {
     const runner::RegistrationRuns runs = runs_of(directory, request);
     const std::vector<int> numbers = runner::runs_of_shard(request.samples, {});
-    const runner::PartStore store = store_of(directory, runs, origin_of(directory, request.samples, {}));
+    const runner::PartStore store =
+        store_of(directory, runs, origin_of(directory, request.perturbation, request.samples, {}));
     fill(store, runs, numbers, jobs, progress);
     store.assemble(numbers, directory.path() / ("estimate-" + label_of(request) + ".h5"));
     return to_notes(store.nominal_step_ms());
@@ -236,7 +252,7 @@ void make_shard(ResultDirectory &directory, const RegisterRequest &request, cons
   const std::filesystem::path file =
       directory.path() / fmt::format("shard-{}-{}-of-{}.h5", label, shard.index, shard.n);
   Progress progress(fmt::format("register {}, shard {}/{}", label, shard.index, shard.n));
-  dataset::EstimatePart origin = origin_of(directory, request.samples, shard);
+  dataset::EstimatePart origin = origin_of(directory, request.perturbation, request.samples, shard);
   if (is_done(file, request, origin))
     return progress.say("up to date");
   const runner::RegistrationRuns runs = runs_of(directory, request);
@@ -264,7 +280,8 @@ void merge_estimates(ResultDirectory &directory, std::vector<std::filesystem::pa
   for (const auto &[label, shards] : by_label)
   {
     sets[label] = runner::read_shards(shards);
-    require_same_origin(sets[label], origin_of(directory, 0, {}), directory.path());
+    require_same_origin(sets[label], origin_of(directory, sets[label].description.perturbation, 0, {}),
+                        directory.path());
   }
   for (const auto &[label, shards] : sets)
   {
@@ -282,7 +299,7 @@ void merge_estimates(ResultDirectory &directory, std::vector<std::filesystem::pa
 std::vector<std::string> estimate_labels()
 {
   std::vector<std::string> labels;
-  for (const std::string &kind : runner::perturbation_kinds())
+  for (const std::string &kind : runner::estimate_kinds())
     for (const std::string &condition : runner::condition_names())
       labels.push_back(label_of({condition, {.kind = kind}, 0}));
   return labels;

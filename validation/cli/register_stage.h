@@ -38,6 +38,9 @@ struct RegisterRequest
 /// Every condition with every perturbation.
 std::vector<RegisterRequest> requests_of(const std::vector<std::string> &conditions, const SampleSettings &settings);
 
+/// The nominal run of every condition, driven by tracked.h5 instead of observations.h5.
+std::vector<RegisterRequest> tracked_requests_of(const std::vector<std::string> &conditions);
+
 /// estimate-LABEL.h5. Runs that a killed register left behind are not played again.
 void make_estimate(ResultDirectory &directory, const RegisterRequest &request, int jobs);
 

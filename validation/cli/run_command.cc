@@ -1,6 +1,7 @@
 #include "synthetic/anatomy/case.h"
 #include "validation/cli/case_overview.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/track_stage.h"
 #include "validation/runner/register.h"
 
 #include <fmt/format.h>
@@ -19,7 +20,13 @@ struct Arguments
   std::vector<std::string> conditions = runner::default_conditions();
   SampleSettings settings;
   int jobs = 1;
+  std::string from = "exact";
 };
+
+bool from_images(const Arguments &given)
+{
+  return given.from == "images";
+}
 
 void print_times(const Manifest &manifest)
 {
@@ -55,7 +62,11 @@ std::vector<std::string> expanded_cases(const std::vector<std::string> &given)
 void run_chain(const std::string &case_name, const std::filesystem::path &out, const Arguments &given,
                const std::string &command_line)
 {
-  const std::vector<RegisterRequest> requests = requests_of(expanded_conditions(given.conditions), given.settings);
+  const std::vector<std::string> conditions = expanded_conditions(given.conditions);
+  std::vector<RegisterRequest> requests = requests_of(conditions, given.settings);
+  if (from_images(given))
+    for (const RegisterRequest &request : tracked_requests_of(conditions))
+      requests.push_back(request);
   const std::string text = anatomy::case_text(case_name);
   const std::string label = case_label(case_name);
   ResultDirectory directory(out, command_line, ResultDirectory::Missing::create);
@@ -63,6 +74,8 @@ void run_chain(const std::string &case_name, const std::filesystem::path &out, c
   make_anatomy(directory, label, text);
   make_truth(directory, given.jobs);
   make_observations(directory);
+  if (from_images(given))
+    make_tracked(directory, {.all = true});
   for (const RegisterRequest &request : requests)
     make_estimate(directory, request, given.jobs);
   Judge judge(given.jobs);
@@ -70,6 +83,8 @@ void run_chain(const std::string &case_name, const std::filesystem::path &out, c
   make_report(directory, judge);
 
   print_error_table(directory);
+  if (from_images(given))
+    print_contour_table(directory);
   print_times(directory.manifest());
   fmt::print("\nreport: {}\n", (directory.path() / "report.html").string());
 }
@@ -105,10 +120,17 @@ void add_run_command(CLI::App &program, Invocation &invocation)
                       "Result directory, made when missing; out/CASE when not given. For several cases the folder of "
                       "their directories");
   add_condition_option(*command, arguments->conditions);
+  command
+      ->add_option("--from", arguments->from,
+                   "exact: outlines are intersections with the truth. images: the organs are also tracked in "
+                   "images/dyn.nrrd of the result directory; the registration is driven by both, for comparison")
+      ->check(CLI::IsMember({"exact", "images"}))
+      ->capture_default_str();
   add_sample_options(*command, arguments->settings);
   add_jobs_option(*command, arguments->jobs);
   command->footer("Examples:\n  pelvireg run quick\n  pelvireg run t005 --out out/t005 --jobs 2\n"
                   "  pelvireg run t005 --conditions all\n"
+                  "  pelvireg run t005 --from images\n"
                   "  pelvireg run all --conditions all --samples 100\n"
                   "  pelvireg run t005 --samples 100 --perturb modulus,surface,outline,plane\nA stage whose inputs "
                   "have not changed is not run again.");

@@ -1,5 +1,6 @@
 #include "validation/cli/commands.h"
 #include "validation/cli/stages.h"
+#include "validation/cli/track_stage.h"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@ struct Arguments
   std::string directory;
   int jobs = 1;
   std::string log_file; ///< of the reference
+  bool pdf = false;     ///< of the report
 };
 
 using Work = std::function<void(ResultDirectory &, const Arguments &)>;
@@ -47,6 +49,8 @@ void print_error_table(const ResultDirectory &directory)
     table << std::ifstream(directory.path() / file).rdbuf();
     fmt::print("\n{}", table.str());
   }
+  if (const std::string cost = tracking_cost_table(directory); !cost.empty())
+    fmt::print("\n{}", cost);
 }
 
 void add_stage_commands(CLI::App &program, Invocation &invocation)
@@ -78,13 +82,17 @@ void add_stage_commands(CLI::App &program, Invocation &invocation)
   command->footer("Example:\n  pelvireg evaluate out/t005");
 
   const auto report = std::make_shared<Arguments>();
-  command = add_command(program, invocation, report, "report", "The page for people: report.html",
+  command = add_command(program, invocation, report, "report",
+                        "The page for people: report.html, with its pictures and figures beside it",
                         [](ResultDirectory &directory, const Arguments &given)
                         {
                           Judge judge(given.jobs);
                           make_report(directory, judge);
+                          if (given.pdf)
+                            make_summary_pdf(directory, judge);
                         });
   add_jobs_option(*command, report->jobs);
-  command->footer("Example:\n  pelvireg report out/t005");
+  command->add_flag("--pdf", report->pdf, "Also one A4 page: summary.pdf (needs Chromium)");
+  command->footer("Examples:\n  pelvireg report out/t005\n  pelvireg report out/t005 --pdf");
 }
 } // namespace pelvireg::cli

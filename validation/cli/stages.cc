@@ -58,18 +58,22 @@ const Judgement &Judge::of(const ResultDirectory &directory, Progress &progress)
     return *judgement_;
   Judgement judgement{.anatomy = dataset::load_anatomy(directory.path() / "anatomy.h5"),
                       .truth = dataset::load_truth(directory.path() / "truth.h5"),
-                      .estimates = {},
+                      .nominal_runs = {},
                       .evaluation = {}};
+  std::vector<runner::RunSource> sources;
   for (const std::string &file : estimate_files(directory))
-    judgement.estimates.push_back(dataset::load_estimate(directory.path() / file));
-  judgement.evaluation = runner::evaluate(judgement.anatomy, judgement.truth, judgement.estimates,
-                                          {.n_threads = jobs_, .progress = progress.callback()});
+  {
+    sources.push_back(runner::runs_in(directory.path() / file));
+    judgement.nominal_runs.push_back(dataset::load_first_run(directory.path() / file));
+  }
+  judgement.evaluation = runner::evaluate_runs(judgement.anatomy, judgement.truth, sources,
+                                               {.n_threads = jobs_, .progress = progress.callback()});
   return judgement_.emplace(std::move(judgement));
 }
 
 std::vector<std::string> stage_order()
 {
-  std::vector<std::string> names = {"anatomy", "reference", "observe"};
+  std::vector<std::string> names = {"anatomy", "reference", "observe", "images", "track"};
   for (const std::string &label : estimate_labels())
     names.push_back("register " + label);
   names.insert(names.end(), {"evaluate", "report"});

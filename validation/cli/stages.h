@@ -17,12 +17,12 @@ void make_anatomy(ResultDirectory &directory, const std::string &case_name, cons
 void make_truth(ResultDirectory &directory, int jobs, const std::string &log_file = {});
 /// observations.h5
 void make_observations(ResultDirectory &directory);
-/// Everything in the directory, loaded and judged.
+/// Everything in the directory, judged.
 struct Judgement
 {
   dataset::Anatomy anatomy;
   dataset::Truth truth;
-  std::vector<dataset::Estimate> estimates;
+  std::vector<dataset::Estimate> nominal_runs; ///< of every estimate, for the pictures of it
   runner::Evaluation evaluation;
 };
 
@@ -42,8 +42,10 @@ private:
 /// errors_by_*.csv, curves_by_*.csv, summary.json, error_table.txt, condition_table.txt, from every estimate in the
 /// directory
 void make_errors(ResultDirectory &directory, Judge &judge);
-/// report.html, pictures/*.png
+/// report.html, pictures/*.png, figures/*.svg
 void make_report(ResultDirectory &directory, Judge &judge);
+/// summary.pdf. Throws InputError when there is no Chromium to print it.
+void make_summary_pdf(ResultDirectory &directory, Judge &judge);
 
 /// Step times of the estimates in the directory, as their register stages noted them.
 std::vector<runner::StepTiming> recorded_timings(const ResultDirectory &directory);

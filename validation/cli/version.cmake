@@ -1,6 +1,6 @@
 # Run at build time: cmake -D ROOT=… -D OUTPUT=… -D VERSION=… -D BUILD=… -P version.cmake
 # Writes version.cc, and touches it only when something has changed.
-set(folders registration reference_fe reference_fe/decks synthetic/dataset synthetic/anatomy synthetic/observation
+set(folders registration registration/tracking reference_fe reference_fe/decks synthetic/dataset synthetic/anatomy synthetic/observation
             validation/metrics validation/runner validation/report)
 
 set(revision unknown)
@@ -23,8 +23,8 @@ endif()
 set(digests "")
 foreach(folder ${folders})
   file(GLOB_RECURSE sources LIST_DIRECTORIES false RELATIVE ${ROOT} "${ROOT}/${folder}/*")
-  # The solver knows nothing of decks, and of the cases each result has its own text.
-  list(FILTER sources EXCLUDE REGEX "^${folder}/(decks|cases)/")
+  # The solver knows nothing of decks, the registration nothing of images, and of the cases each result has its own text.
+  list(FILTER sources EXCLUDE REGEX "^${folder}/(decks|cases|tracking)/")
   list(SORT sources)
   set(all "")
   foreach(source ${sources})

@@ -60,6 +60,8 @@ public:
     describe_points();
     if (result_.average->upper < -std::log(rule_.average_line) && result_.verdict == Verdict::pass)
       verdict(Verdict::improved, "average error " + percent(result_.average->mean));
+    for (const int slice : paired_.lost_grazing)
+      verdict(Verdict::changed, fmt::format("slice {}, which grazes the organ, is missed by some run", slice));
   }
 
   void verdict(Verdict found, const std::string &reason)
@@ -244,7 +246,7 @@ FamilyComparison test_family(const FamilyName &name, const Family &baseline, con
   std::string problem = pairing_problem(name, baseline, current);
   if (problem.empty())
   {
-    paired = pair_up(baseline, current);
+    paired = pair_up(baseline, current, context.rule);
     problem = place_problem(paired, context.rule);
   }
   FamilyTest test(result, paired, context);

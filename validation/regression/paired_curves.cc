@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <iterator>
 #include <set>
+#include <utility>
 
 namespace pelvireg::regression
 {
@@ -28,6 +29,19 @@ std::set<int> common_abscissae(const Family &family)
   return common;
 }
 
+/// The judge puts one point on a mm of the truth's contour.
+bool grazes(const Curve &nominal, int abscissa, const Rule &rule)
+{
+  int here = 0, longest = 0;
+  for (const CurvePoint &point : nominal)
+  {
+    longest = std::max(longest, point.n_points);
+    if (point.abscissa == abscissa)
+      here = point.n_points;
+  }
+  return here < rule.grazing_share * longest;
+}
+
 PickedCurve pick(const Curve &curve, const std::vector<int> &abscissae)
 {
   PickedCurve points;
@@ -42,14 +56,21 @@ bool is_same(double before, double now, const Rule &rule)
   return std::abs(now - before) <=
          rule.same_absolute_mm + rule.same_relative * std::max(std::abs(before), std::abs(now));
 }
+
+bool is_finite(const CurvePoint &point)
+{
+  return std::isfinite(point.mean) && std::isfinite(point.sd) && std::isfinite(point.p95) && std::isfinite(point.max);
+}
 } // namespace
 
-PairedCurves pair_up(const Family &baseline, const Family &current)
+PairedCurves pair_up(const Family &baseline, const Family &current, const Rule &rule)
 {
   PairedCurves paired;
   const std::set<int> before = common_abscissae(baseline), now = common_abscissae(current);
   std::set_intersection(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(paired.abscissae));
-  std::set_difference(before.begin(), before.end(), now.begin(), now.end(), std::back_inserter(paired.lost));
+  for (const int abscissa : before)
+    if (!now.contains(abscissa))
+      (grazes(baseline.at(0), abscissa, rule) ? paired.lost_grazing : paired.lost).push_back(abscissa);
   for (const auto &[sample, curve] : baseline)
   {
     paired.samples.push_back(sample);
@@ -61,6 +82,11 @@ PairedCurves pair_up(const Family &baseline, const Family &current)
 
 std::string pairing_problem(const FamilyName &name, const Family &baseline, const Family &current)
 {
+  for (const auto &[family, side] : {std::pair(&baseline, "BASELINE"), std::pair(&current, "CURRENT")})
+    for (const auto &[sample, curve] : *family)
+      for (const CurvePoint &point : curve)
+        if (!is_finite(point))
+          return fmt::format("{}, sample {}: a figure at {} is not finite", side, sample, point.abscissa);
   for (const auto &[sample, curve] : baseline)
     if (!current.contains(sample))
       return fmt::format("sample {} is not in CURRENT", sample);

@@ -18,14 +18,17 @@ struct PairedCurves
   std::vector<int> abscissae;                 ///< that every run of both sides has
   std::vector<int> samples;                   ///< the nominal run first
   std::vector<PickedCurve> baseline, current; ///< one a run
-  std::vector<int> lost; ///< slices that every run of the baseline meets and some run of the current does not
+  /// Slices that every run of the baseline meets and some run of the current does not: those that cut the organ, and
+  /// those that graze it (Rule::grazing_share).
+  std::vector<int> lost, lost_grazing;
 };
 
-/// Why the families cannot be laid side by side (other samples, no nominal run, other steps); empty when they can.
+/// Why the families cannot be laid side by side (a figure that is not finite, other samples, no nominal run, other
+/// steps); empty when they can.
 std::string pairing_problem(const FamilyName &name, const Family &baseline, const Family &current);
 
 /// Lay them side by side. A slice that some run of the baseline does not meet is left out.
-PairedCurves pair_up(const Family &baseline, const Family &current);
+PairedCurves pair_up(const Family &baseline, const Family &current, const Rule &rule);
 
 /// Why the points of the two sides are not the same places (no shared abscissa, another offset, another number of
 /// points); empty when they are.

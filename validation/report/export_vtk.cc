@@ -1,6 +1,6 @@
 #include "validation/report/export_vtk.h"
 
-#include "validation/metrics/surface_distance.h"
+#include "validation/report/surface_error.h"
 #include "validation/report/vtk_data.h"
 
 #include <vtkCellArray.h>
@@ -103,12 +103,6 @@ std::string numbered(const std::string &name, int number, const char *extension)
   return text.str();
 }
 
-/// increment 0 is the rest shape.
-Points displacement_of(const TruthSurface &surface, std::size_t increment)
-{
-  return increment == 0 ? Points::Zero(surface.rest.points.rows(), 3) : surface.displacements.at(increment - 1);
-}
-
 void write_surface(const std::string &name, const SurfaceMesh &rest, const Points &displacement, const fs::path &file,
                    const std::vector<double> &error = {})
 {
@@ -154,16 +148,6 @@ void export_truth(const Truth &truth, const fs::path &folder)
   collection.save();
 }
 
-/// Distance of each registered point to the truth's surface at that increment; none for an organ that is not there.
-std::vector<double> error_of(const Truth &truth, const std::string &organ, std::size_t increment, const Points &points)
-{
-  for (const TruthSurface &surface : truth.surfaces)
-    if (surface.name == organ && increment <= surface.displacements.size())
-      return metrics::surface_distances(points, surface.rest.points + displacement_of(surface, increment),
-                                        surface.rest.triangles, surface.rest.region);
-  return {};
-}
-
 void export_estimate(const Anatomy &anatomy, const Truth &truth, const Estimate &estimate, const fs::path &folder)
 {
   if (estimate.samples.empty())
@@ -178,7 +162,7 @@ void export_estimate(const Anatomy &anatomy, const Truth &truth, const Estimate 
       const fs::path file = collection.add(static_cast<double>(step) / static_cast<double>(per_increment),
                                            numbered(surface.name, static_cast<int>(step), ".vtp"));
       write_surface(surface.name, surface.rest, positions - surface.rest.points, file,
-                    error_of(truth, surface.name, increment, positions));
+                    distances_to_truth(truth, surface.name, increment, positions));
     }
   collection.save();
 }

@@ -1,21 +1,26 @@
-// The figures of the report.
+// The error curves of the report.
 #pragma once
 
-#include "validation/report/report.h"
+#include "validation/report/line_plot.h"
+#include "validation/runner/evaluate.h"
 
 #include <string>
+#include <vector>
 
 namespace pelvireg::report
 {
-/// Both rows of the paper's Figure 6: mean surface error by step, mean contour error by slice at the last step; one
-/// panel a condition, one scale a row.
-std::string error_by_step_figure(const runner::Evaluation &evaluation);
-std::string error_by_slice_figure(const runner::Evaluation &evaluation);
+/// A panel of one condition.
+struct NamedPlot
+{
+  std::string condition;
+  LinePlot plot;
+};
 
-/// Contours of rest, truth and estimate in the DYN plane at the last step, from the judge's own slicer; one panel a
-/// registered condition.
-std::string plane_overlay_figure(const ReportInputs &inputs);
+/// Both rows of the paper's Figures 6 and 7: mean surface error by step, mean contour error by slice at the last step;
+/// one panel a condition, one scale a row.
+std::vector<NamedPlot> error_by_step_plots(const runner::Evaluation &evaluation);
+std::vector<NamedPlot> error_by_slice_plots(const runner::Evaluation &evaluation);
 
-/// What a condition is called in headings: "full (all constraints)", …
-std::string condition_title(const std::string &condition);
+/// A row of panels with their key. Ablations are closed behind the paper's conditions.
+std::string panels_html(const std::vector<NamedPlot> &plots);
 } // namespace pelvireg::report

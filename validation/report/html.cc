@@ -1,32 +1,13 @@
 #include "validation/report/html.h"
 
-#include <algorithm>
+#include "validation/report/base64.h"
+
 #include <cstddef>
-#include <cstdint>
 #include <fstream>
 #include <iterator>
 
 namespace pelvireg::report
 {
-namespace
-{
-std::string base64(const std::string &bytes)
-{
-  const char *alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3)
-  {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= n ? alphabet[word >> (18 - 6 * k) & 63u] : '=';
-  }
-  return text;
-}
-} // namespace
-
 std::string escape(const std::string &text)
 {
   std::string escaped;
@@ -71,6 +52,16 @@ std::string table(const std::vector<std::string> &heading, const std::vector<std
     text += "</tr>\n";
   }
   return text + "</tbody></table></div>\n";
+}
+
+std::string section(const std::string &id, const std::string &title, const std::string &body)
+{
+  return "<section id=\"" + escape(id) + "\">\n<h2>" + escape(title) + "</h2>\n" + body + "</section>\n";
+}
+
+std::string details(const std::string &summary, const std::string &body)
+{
+  return "<details><summary>" + escape(summary) + "</summary>\n" + body + "</details>\n";
 }
 
 std::string png_data_url(const std::filesystem::path &file)

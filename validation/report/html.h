@@ -14,6 +14,12 @@ std::string escape(const std::string &text);
 /// escaped; rows shorter than the heading are filled up.
 std::string table(const std::vector<std::string> &heading, const std::vector<std::vector<std::string>> &rows);
 
+/// A part of the page with a heading, and an id to jump to. `title` is escaped, `body` is HTML.
+std::string section(const std::string &id, const std::string &title, const std::string &body);
+
+/// Closed until the reader opens it. `summary` is escaped, `body` is HTML.
+std::string details(const std::string &summary, const std::string &body);
+
 /// The file as a data: URL. Empty when it cannot be read or does not begin like a PNG.
 std::string png_data_url(const std::filesystem::path &file);
 } // namespace pelvireg::report

@@ -17,13 +17,8 @@ namespace
 using namespace dataset;
 using Eigen::Vector3d;
 
-const std::map<std::string, Colour> organ_colours = {{"bladder", {0.95, 0.80, 0.25}},
-                                                     {"vagina", {0.95, 0.55, 0.65}},
-                                                     {"uterus", {0.68, 0.36, 0.58}},
-                                                     {"rectum", {0.60, 0.40, 0.26}}};
-const Colour floor_colour = {0.62, 0.62, 0.62}, bar_colour = {0.62, 0.76, 0.88}, ghost_colour = {0.45, 0.45, 0.45},
-             estimate_colour = {0.1, 0.1, 0.1}, arrow_colour = {0.1, 0.25, 0.6}, cap_colour = {0.85, 0.85, 0.85};
-constexpr double error_scale = 6; ///< mm, the same in every report, so that pictures can be compared
+const Colour bar_colour = {0.62, 0.76, 0.88}, ghost_colour = {0.45, 0.45, 0.45}, estimate_colour = {0.1, 0.1, 0.1},
+             arrow_colour = {0.1, 0.25, 0.6}, cap_colour = {0.85, 0.85, 0.85};
 
 /// Everything that one picture shows at one instant.
 struct Organ
@@ -296,7 +291,7 @@ void render_result(const std::filesystem::path &result, const std::filesystem::p
   const Truth truth = has_truth ? load_truth(result / "truth.h5") : Truth{};
   std::vector<Estimate> estimates;
   if (const auto file = result / "estimate-full.h5"; has_truth && std::filesystem::exists(file))
-    estimates.push_back(load_estimate(file));
+    estimates.push_back(load_first_run(file));
   render_pictures(anatomy, truth, estimates, folder);
 }
 } // namespace pelvireg::report

@@ -38,9 +38,9 @@ struct RenderOutcome
   std::string message; ///< why there are no pictures, to follow "no pictures: "; empty when ok
 };
 
-/// Start `program render RESULT FOLDER` on an X server of its own (or on DISPLAY when Xvfb is missing) and wait, at most
-/// `time_limit_s`; an empty `program` is the running one. Pictures of an earlier call are removed first. Never throws and
-/// never ends the caller: a report without pictures is still a report.
+/// Start `program render RESULT FOLDER` on an X server of its own (or on DISPLAY when Xvfb is missing) and wait, at
+/// most `time_limit_s`; an empty `program` is the running one. Pictures of an earlier call are removed first. Never
+/// throws and never ends the caller: a report without pictures is still a report.
 RenderOutcome render_in_child(const std::filesystem::path &result, const std::filesystem::path &folder,
                               const std::filesystem::path &program = {}, double time_limit_s = 180);
 } // namespace pelvireg::report

@@ -1,8 +1,9 @@
-// report.html: what the evaluation found, for people. One file, no network, no script.
+// report.html: what the evaluation found, for people. One file, no network; whole without its script.
 #pragma once
 
 #include "synthetic/dataset/anatomy.h"
 #include "synthetic/dataset/estimate.h"
+#include "synthetic/dataset/observations.h"
 #include "synthetic/dataset/truth.h"
 #include "validation/runner/evaluate.h"
 #include "validation/runner/register.h"
@@ -27,6 +28,13 @@ struct ProvenanceEntry
   std::string value;
 };
 
+/// How long a stage of the chain took.
+struct StageTime
+{
+  std::string name;
+  double seconds = 0;
+};
+
 /// Everything that the report shows. The references must outlive the call. Of each estimate the nominal run (sample 0)
 /// is drawn.
 struct ReportInputs
@@ -38,6 +46,9 @@ struct ReportInputs
   std::vector<runner::StepTiming> timings;
   std::vector<ReportPicture> pictures;
   std::vector<ProvenanceEntry> provenance;
+  std::vector<StageTime> stages = {};
+  std::vector<std::string> commands = {};              ///< that make the result again
+  const dataset::Observations *observations = nullptr; ///< control points of the 3-D view, when known
 };
 
 /// The page as text. The same inputs give the same bytes; every string is escaped.

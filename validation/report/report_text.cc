@@ -1,57 +1,60 @@
 #include "validation/report/report_text.h"
 
 #include "validation/report/html.h"
+#include "validation/report/web_bundle.h"
 
 #include <fmt/format.h>
+
+#include <initializer_list>
+#include <utility>
 
 namespace pelvireg::report
 {
 namespace
 {
-const char *const style = R"(
-body{margin:0;background:#fff;color:#1a1a1a;font:16px/1.5 system-ui,"Liberation Sans",sans-serif}
-main{max-width:1240px;margin:0 auto;padding:16px 20px 60px}
-h1{font-size:1.6rem;line-height:1.25;margin:.4em 0}
-h2{font-size:1.25rem;margin:2em 0 .5em;border-bottom:1px solid #ccc;padding-bottom:.2em}
-p,dl{max-width:75ch}
-.lead{font-size:1.1rem}
-.scroll{overflow-x:auto;margin:.6em 0}
-table{border-collapse:collapse;font-variant-numeric:tabular-nums}
-th,td{padding:.3em .7em;border-bottom:1px solid #ddd;text-align:right;vertical-align:top}
-th:first-child{text-align:left}
-tbody th{font-weight:400;min-width:9em}
-thead th{border-bottom:2px solid #666}
-.claims td,.claims th{text-align:left;min-width:9em}
-.claims td:nth-child(2),.claims td:nth-child(4),.claims td:nth-child(5){min-width:15em}
-.verdict{white-space:nowrap;font-weight:600;padding:.1em .5em;border-radius:4px}
-.yes{background:#d6f0e4;color:#00513b}
-.no{background:#fbdccb;color:#8a2f00}
-.open{background:#eee;color:#444}
-.panels{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,340px),1fr));gap:12px}
-.panels.wide{grid-template-columns:repeat(auto-fit,minmax(min(100%,460px),1fr))}
-.legend svg{width:100%;max-width:420px}
-.key{margin:0}
-.key svg{width:100%;max-width:560px}
-figure{margin:0}
-svg,img{display:block;width:100%;height:auto}
-figcaption{font-size:.9rem;color:#333}
-dt{font-weight:600;margin-top:.6em}
-dd{margin:0 0 0 1.2em}
-.provenance td{overflow-wrap:anywhere;text-align:left;min-width:12em}
-@media(max-width:700px){
-th,td{padding:.3em .4em}
-.claims thead{display:none}
-.claims tr{display:block;border-bottom:1px solid #999;padding:.6em 0}
-.claims td{display:block;border:0;padding:.1em 0;min-width:0}
-.claims td[data-label]:not([data-label=""])::before{content:attr(data-label) ": ";font-weight:600}
-}
-@media print{h2{break-after:avoid}figure{break-inside:avoid}}
-)";
-
 std::string definition(const std::string &term, const std::string &meaning)
 {
   return "<dt>" + escape(term) + "</dt><dd>" + escape(meaning) + "</dd>\n";
 }
+
+std::string definitions_of_metrics(const runner::Evaluation &evaluation)
+{
+  std::string html;
+  html +=
+      definition("Material-point error",
+                 "Length of the estimate's displacement minus the truth's, at the judge's surface samples; the point "
+                 "of the estimate's rest surface closest to a sample at rest stands for it. Of unregistered it is the "
+                 "truth's motion. Its parts along and across the truth's surface normal are averaged by length.");
+  html +=
+      definition("Symmetric distance, HD95",
+                 "Mean of the distances of the truth's samples to the estimate and of the estimate's own samples to "
+                 "the truth (ASSD); the larger of both directions' 95th percentiles.");
+  html += definition("Dice", fmt::format("Twice the volume in common over the sum of both volumes, of what the closed "
+                                         "outer surfaces enclose, lumen included, along lines {:g} mm apart.",
+                                         evaluation.options.line_spacing));
+  html += definition("Volume change", "Of what the closed outer surface encloses, against its own mesh at rest.");
+  html += definition("Rotation error", "Angle of the rotation that best carries the estimate's material points to the "
+                                       "truth's (Kabsch).");
+  html += definition("Error by distance",
+                     fmt::format("The truth's surface samples in slabs of {:g} mm parallel to the DYN plane, by where "
+                                 "they are in the truth at the last step. No slab is missed and none weighs more "
+                                 "because a plane grazes the organ.",
+                                 evaluation.slice_pitch));
+  html +=
+      definition("The truth's own error bar",
+                 "Grid convergence index of the truth's displacement by a study of the same case on three meshes, mean "
+                 "over material points of an organ's outer surface away from bars, at the last increment.");
+  html += definition("Penetration", "How deep a node or triangle's centroid of one organ lies inside another, and the "
+                                    "volume inside both; the judge's own points, largest over the positions. Attached: "
+                                    "the registration holds the two together, they meet by design.");
+  html +=
+      definition("Colours in the 3-D view",
+                 "Of the truth's nodes the distance to the closest triangle of the estimate, of the estimate's nodes "
+                 "the distance to the truth, at that step, in steps of 0.04 mm. Nodes are not the judge's samples: "
+                 "their largest value can exceed the tables'.");
+  return html;
+}
+
 std::string definitions_of_runs()
 {
   std::string html;
@@ -72,19 +75,41 @@ std::string definitions_of_runs()
 }
 } // namespace
 
-std::string page_head(const std::string &title)
+std::string page_head(const std::string &title, std::string_view script_digest)
 {
+  std::string policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
+  if (!script_digest.empty())
+    policy += "; script-src 'sha256-" + std::string(script_digest) + "'";
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
-         "img-src data:\">\n<title>" +
-         escape(title) + "</title>\n<style>" + style + "</style></head>\n<body><main>\n";
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
+         policy + "\">\n<title>" + escape(title) + "</title>\n<style>" + std::string(page_style()) +
+         "</style></head>\n<body><main>\n";
+}
+
+std::string page_links()
+{
+  std::string html = "<nav aria-label=\"Parts of this page\">";
+  for (const auto &[id, name] :
+       std::initializer_list<std::pair<const char *, const char *>>{{"claims", "Claims"},
+                                                                    {"by-step", "By step"},
+                                                                    {"by-slice", "By slice"},
+                                                                    {"space", "3-D"},
+                                                                    {"slices", "Slices"},
+                                                                    {"worst", "Worst places"},
+                                                                    {"metrics", "Metrics"},
+                                                                    {"truth", "Truth"},
+                                                                    {"time", "Time"},
+                                                                    {"definitions", "Definitions"},
+                                                                    {"provenance", "Provenance"}})
+    html += fmt::format("<a href=\"#{}\">{}</a>", id, name);
+  return html + "</nav>\n";
 }
 
 std::string definitions_html(const runner::Evaluation &evaluation)
 {
   const double spacing = evaluation.options.surface_spacing;
-  std::string html = "<h2>Definitions</h2>\n<dl>\n";
+  std::string html = "<dl>\n";
   html +=
       definition("Surface error",
                  fmt::format("Fixed material points of the truth's rest outer surface, one per {:g} mm² ({:g} mm "
@@ -108,12 +133,12 @@ std::string definitions_html(const runner::Evaluation &evaluation)
       definition("Unregistered", "The registration's rest mesh against every increment: the error of doing nothing.");
   html += definition("Boundary conditions", "Ligaments, fasciae, contact and organ attachments. Without them only the "
                                             "image constraints are left.");
-  return html + definitions_of_runs() + "</dl>\n";
+  return html + definitions_of_metrics(evaluation) + definitions_of_runs() + "</dl>\n";
 }
 
 std::string limits_html()
 {
-  return "<h2>What this is not</h2>\n<p>This compares a registration with a synthetic reference: verification by "
+  return "<p>This compares a registration with a synthetic reference: verification by "
          "comparison. It is not a clinical validation. No patient's data are in it, the anatomy is parametric, and the "
          "true materials, loads and supports of a living pelvis are unknown. The reference is an independent "
          "finite-element model; its materials and supports were not tuned to the registration, only its load was "

@@ -39,19 +39,12 @@ namespace
 constexpr int width = 1000, height = 750;
 constexpr int font_size = 20;
 
-/// Viridis: even in lightness, readable in grey and for the colour-blind.
-vtkSmartPointer<vtkColorTransferFunction> viridis(double maximum)
+vtkSmartPointer<vtkColorTransferFunction> viridis_to(double maximum)
 {
-  constexpr std::array<Colour, 6> anchors = {{{0.267, 0.005, 0.329},
-                                              {0.254, 0.265, 0.530},
-                                              {0.164, 0.471, 0.558},
-                                              {0.135, 0.659, 0.518},
-                                              {0.478, 0.821, 0.318},
-                                              {0.993, 0.906, 0.144}}};
   auto function = vtkSmartPointer<vtkColorTransferFunction>::New();
-  for (std::size_t i = 0; i < anchors.size(); ++i)
-    function->AddRGBPoint(maximum * static_cast<double>(i) / (anchors.size() - 1), anchors[i][0], anchors[i][1],
-                          anchors[i][2]);
+  for (std::size_t i = 0; i < viridis.size(); ++i)
+    function->AddRGBPoint(maximum * static_cast<double>(i) / (viridis.size() - 1), viridis[i][0], viridis[i][1],
+                          viridis[i][2]);
   return function;
 }
 
@@ -111,7 +104,7 @@ void Scene::add_coloured_surface(vtkPolyData *surface, const std::string &array,
   mapper->ScalarVisibilityOn();
   mapper->SetScalarModeToUsePointData();
   mapper->InterpolateScalarsBeforeMappingOn();
-  mapper->SetLookupTable(viridis(maximum));
+  mapper->SetLookupTable(viridis_to(maximum));
   mapper->UseLookupTableScalarRangeOn();
   const auto actor = actor_of(mapper, {1, 1, 1}, 1);
   actor->GetProperty()->SetAmbient(0.45); // the colour is a figure: keep shading weak
@@ -123,9 +116,9 @@ void Scene::add_coloured_surface(vtkPolyData *surface, const std::string &array,
 void Scene::add_scale(const std::string &title, double maximum)
 {
   vtkNew<vtkScalarBarActor> bar;
-  bar->SetLookupTable(viridis(maximum));
+  bar->SetLookupTable(viridis_to(maximum));
   bar->SetTitle(title.c_str());
-  bar->SetNumberOfLabels(7);
+  bar->SetNumberOfLabels(5);
   bar->SetLabelFormat("%.0f");
   bar->UnconstrainedFontSizeOn();
   for (vtkTextProperty *text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()})

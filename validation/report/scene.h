@@ -2,6 +2,7 @@
 #pragma once
 
 #include "synthetic/dataset/geometry.h"
+#include "validation/report/colour_map.h"
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -15,8 +16,6 @@
 
 namespace pelvireg::report
 {
-using Colour = std::array<double, 3>; ///< red, green, blue, 0 … 1
-
 enum class View
 {
   sagittal, ///< from the left: anterior on the left side of the picture, cranial up, as sagittal images are shown

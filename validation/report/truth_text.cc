@@ -48,6 +48,12 @@ std::string balance_html(const dataset::Truth &truth)
                      energy, force);
 }
 
+/// Rounded to hundredths; never -0.
+double without_sign_of_zero(double value)
+{
+  return std::round(100 * value) / 100 + 0.0;
+}
+
 std::string volumes_html(const dataset::Truth &truth)
 {
   std::string text;
@@ -55,9 +61,10 @@ std::string volumes_html(const dataset::Truth &truth)
   {
     const auto column = static_cast<Eigen::Index>(c);
     const dataset::IncrementRecord &last = truth.increments.back();
-    text += fmt::format("{}{} {:.2f} kPa, volume {:+.2f} %", c > 0 ? "; " : "", escape(truth.cavity_names[c]),
-                        1e3 * last.cavity_pressures[column],
-                        100 * (last.cavity_volumes[column] / truth.cavity_rest_volumes[column] - 1));
+    text +=
+        fmt::format("{}{} {:.2f} kPa, volume {:+.2f} %", c > 0 ? "; " : "", escape(truth.cavity_names[c]),
+                    1e3 * last.cavity_pressures[column],
+                    without_sign_of_zero(100 * (last.cavity_volumes[column] / truth.cavity_rest_volumes[column] - 1)));
   }
   return text.empty() ? "" : "<p>Fluids at the last increment: " + text + ".</p>\n";
 }

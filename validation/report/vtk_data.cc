@@ -136,7 +136,9 @@ std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> bars_at_rest(const data
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> bars;
   for (const dataset::ReferenceTruss &truss : model.trusses)
     bars.emplace_back(node_of(model, truss.part_a, truss.node_a),
-                      truss.part_b.empty() ? truss.fixed_point : node_of(model, truss.part_b, truss.node_b));
+                      truss.part_b.empty()
+                          ? truss.fixed_point
+                          : Eigen::Vector3d(node_of(model, truss.part_b, truss.node_b) + truss.offset_b));
   return bars;
 }
 } // namespace pelvireg::report

@@ -152,6 +152,20 @@ const std::vector<MetricFigure> &metric_figures()
   return figures;
 }
 
+std::vector<Aggregate> metric_by_position(const Evaluation &evaluation, const std::string &condition,
+                                          const std::string &organ, const MetricFigure &figure)
+{
+  const CountedRuns counted(evaluation, condition);
+  std::map<int, std::vector<double>> values;
+  for (const StepMetrics &row : evaluation.metrics_by_step)
+    if (row.condition == condition && row.organ == organ && counted.contain(row.sample))
+      values[row.step].push_back(figure.value(row));
+  std::vector<Aggregate> aggregates;
+  for (const auto &[step, runs] : values)
+    aggregates.push_back(aggregate_of(runs));
+  return aggregates;
+}
+
 std::optional<Aggregate> metric_at_last_step(const Evaluation &evaluation, const std::string &condition,
                                              const std::string &organ, const MetricFigure &figure)
 {

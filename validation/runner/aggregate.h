@@ -63,6 +63,10 @@ const std::vector<MetricFigure> &metric_figures();
 std::optional<Aggregate> metric_at_last_step(const Evaluation &evaluation, const std::string &condition,
                                              const std::string &organ, const MetricFigure &figure);
 
+/// The same at the last step of every position, in order. Empty when the condition was not judged.
+std::vector<Aggregate> metric_by_position(const Evaluation &evaluation, const std::string &condition,
+                                          const std::string &organ, const MetricFigure &figure);
+
 /// Surface and material-point error by slab at the last step, over the runs that have samples in it (all of one rest
 /// shape do).
 struct DistanceAggregate

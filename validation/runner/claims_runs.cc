@@ -2,6 +2,7 @@
 #include "synthetic/dataset/geometry.h"
 #include "validation/runner/aggregate.h"
 #include "validation/runner/claim_terms.h"
+#include "validation/runner/table_one.h"
 
 #include <fmt/format.h>
 
@@ -17,25 +18,8 @@ using dataset::organ_names;
 constexpr int n_runs_for_spread = 10; ///< fewer runs say nothing of a standard deviation
 constexpr double modulus_spread = 0.10;
 
-/// A size of the paper's Table 1 (nodes over all bodies) and the rate that it reports for it.
-struct PaperSize
-{
-  const char *name;
-  int n_nodes;
-  double rate; ///< steps per second
-};
-constexpr PaperSize paper_sizes[] = {{"T005", 4025, 14}, {"T007", 6200, 8}};
-constexpr double size_tolerance = 0.05;
 // Of the paper's "on average 30 friction contact and 70 outline constraints": fewer would be an easier problem.
 constexpr double least_outline_constraints = 60, least_contacts = 15;
-
-const PaperSize *size_of(const Evaluation &evaluation)
-{
-  for (const PaperSize &size : paper_sizes)
-    if (std::abs(evaluation.n_registration_nodes - size.n_nodes) <= size_tolerance * size.n_nodes)
-      return &size;
-  return nullptr;
-}
 
 const RunQuality *nominal_run(const Evaluation &evaluation, const std::string &condition)
 {
@@ -105,7 +89,7 @@ ClaimVerdict frame_rate(const Evaluation &evaluation, const std::vector<StepTimi
       fmt::format("node count within {:.0f} % of one of Table 1's, on average at least {:g} outline and "
                   "{:g} contact constraints a step; median rate of the full condition's nominal run at "
                   "least the paper's",
-                  100 * size_tolerance, least_outline_constraints, least_contacts),
+                  100 * table_one_tolerance, least_outline_constraints, least_contacts),
       "",
       ""};
   const auto timing =
@@ -113,15 +97,16 @@ ClaimVerdict frame_rate(const Evaluation &evaluation, const std::vector<StepTimi
   const RunQuality *run = nominal_run(evaluation, full);
   if (timing == timings.end() || !(timing->median_ms > 0) || !run)
     return not_assessed(claim, "the full condition's nominal run was not timed");
-  const PaperSize *size = size_of(evaluation);
+  const TableOneColumn *size = table_one_column(evaluation.n_registration_nodes());
   const double rate = 1000 / timing->median_ms;
   claim.ours =
       fmt::format("{:.0f} steps per second on a CPU (median {:.1f} ms, 95th percentile {:.1f} ms), {} nodes{}, "
                   "{:.0f} outline and {:.1f} contact constraints a step",
-                  rate, timing->median_ms, timing->p95_ms, evaluation.n_registration_nodes,
-                  size ? fmt::format(" ({})", size->name) : "", run->mean_outline_constraints, run->mean_contacts);
+                  rate, timing->median_ms, timing->p95_ms, evaluation.n_registration_nodes(),
+                  size ? fmt::format(" ({})", size->data_set) : "", run->mean_outline_constraints, run->mean_contacts);
   if (!size)
-    return not_assessed(claim, claim.ours + "; Table 1 has 4025 and 6200 nodes");
+    return not_assessed(claim, claim.ours + fmt::format("; Table 1 has {} and {} nodes", table_one[0].n_nodes(),
+                                                        table_one[1].n_nodes()));
   if (!(run->mean_outline_constraints >= least_outline_constraints && run->mean_contacts >= least_contacts))
     return not_assessed(claim,
                         claim.ours + "; the paper's step holds about 70 and 30, which registration_bench measures");

@@ -55,6 +55,7 @@ registration::Options options_of(const std::string &condition, const dataset::An
 {
   registration::Options options;
   options.time_step = anatomy.registration_time_step;
+  options.friction_coefficient = anatomy.registration_friction;
   options.use_attachments = condition != "no_boundary_conditions";
   options.use_contact = condition != "no_boundary_conditions" && condition != "no_contact";
   if (condition == "no_friction")

@@ -5,6 +5,7 @@
 #include "validation/runner/aims.h"
 #include "validation/runner/claims.h"
 #include "validation/runner/condition_table.h"
+#include "validation/runner/node_table.h"
 
 #include <fmt/format.h>
 
@@ -207,7 +208,7 @@ std::string error_table(const Evaluation &evaluation, const std::vector<StepTimi
   if (evaluation.is_inverse_crime)
     text += wrap(inverse_crime_notice(evaluation), 0) + "\n";
   text += surface_errors(evaluation) + "\n" + metrics_beyond(evaluation) + "\n" + motion(evaluation) + "\n" +
-          quality(evaluation, timings) + "\n";
+          node_table(evaluation.registration_nodes) + "\n" + quality(evaluation, timings) + "\n";
   for (const ClaimVerdict &claim : assess_claims(evaluation, timings))
     text += wrap(fmt::format("{:<14}{}: paper {}, ours {}", claim.verdict, claim.id, claim.paper, claim.ours), 14);
   text += "\n";

@@ -5,6 +5,7 @@
 #include "synthetic/dataset/estimate.h"
 #include "synthetic/dataset/truth.h"
 #include "validation/runner/evaluation.h"
+#include "validation/runner/run_source.h"
 
 #include <vector>
 
@@ -12,7 +13,12 @@ namespace pelvireg::runner
 {
 /// Compare. `estimates` may be empty: then only `unregistered` is judged. Fails closed with InputError, one sentence:
 /// another case, a missing or repeated organ, condition or sample, a missing step, a position that is not finite or
-/// metres away, an open surface, a truth or estimate that the DYN plane misses at the last step.
+/// metres away, an open surface, a truth or estimate that the DYN plane misses at the last step. Of several broken runs
+/// the first one is named.
 Evaluation evaluate(const dataset::Anatomy &anatomy, const dataset::Truth &truth,
                     const std::vector<dataset::Estimate> &estimates, const EvaluateOptions &options = {});
+
+/// The same, run by run: each is asked for once and let go when it is judged, so that one a thread is in memory.
+Evaluation evaluate_runs(const dataset::Anatomy &anatomy, const dataset::Truth &truth,
+                         const std::vector<RunSource> &estimates, const EvaluateOptions &options = {});
 } // namespace pelvireg::runner

@@ -88,8 +88,12 @@ void require_finite_record(const dataset::StepRecord &record, const std::string 
           fmt::format("evaluate: {}: a residual or force is {}, must be finite; register again", where, value));
 }
 
-void require_usable_sample(const dataset::EstimateSample &sample, std::size_t n_steps, const std::string &where)
+} // namespace
+
+void require_usable_run(const std::string &label, const dataset::EstimateSample &sample, int n_steps)
 {
+  const std::string where = fmt::format("estimate '{}', sample {}", label, sample.sample);
+  const auto n_wanted = static_cast<std::size_t>(n_steps);
   if (sample.surfaces.size() != organ_names.size())
     throw InputError(fmt::format("evaluate: {} has {} organs, must have {}; register again", where,
                                  sample.surfaces.size(), organ_names.size()));
@@ -99,15 +103,14 @@ void require_usable_sample(const dataset::EstimateSample &sample, std::size_t n_
     if (surface.name != organ_names[organ])
       throw InputError(fmt::format("evaluate: organ {} of {} is '{}', must be '{}'; register again", organ + 1, where,
                                    surface.name, organ_names[organ]));
-    require_usable_field(surface.rest, surface.positions, n_steps, fmt::format("{}, {}", where, surface.name));
+    require_usable_field(surface.rest, surface.positions, n_wanted, fmt::format("{}, {}", where, surface.name));
   }
-  if (sample.steps.size() != n_steps)
+  if (sample.steps.size() != n_wanted)
     throw InputError(fmt::format("evaluate: {} has {} step records, must have {}; register again", where,
-                                 sample.steps.size(), n_steps));
+                                 sample.steps.size(), n_wanted));
   for (const dataset::StepRecord &record : sample.steps)
     require_finite_record(record, where);
 }
-} // namespace
 
 const dataset::TruthSurface &truth_surface(const dataset::Truth &truth, const std::string &organ)
 {
@@ -119,25 +122,21 @@ const dataset::TruthSurface &truth_surface(const dataset::Truth &truth, const st
 }
 
 void require_comparable(const dataset::Anatomy &anatomy, const dataset::Truth &truth,
-                        const std::vector<dataset::Estimate> &estimates)
+                        const std::vector<RunSource> &estimates)
 {
   require_usable_truth(anatomy, truth);
-  const auto n_steps =
-      static_cast<std::size_t>(anatomy.reference.n_increments * anatomy.registration_steps_per_increment);
   std::set<std::pair<std::string, int>> seen;
-  for (const dataset::Estimate &estimate : estimates)
+  for (const RunSource &estimate : estimates)
   {
-    require_same_case(fmt::format("estimate '{}'", estimate.label()), estimate.case_name, anatomy.case_name);
-    require_condition_name(estimate.label());
-    if (estimate.samples.empty())
-      throw InputError(fmt::format("evaluate: estimate '{}' holds no run; register again", estimate.label()));
-    for (const dataset::EstimateSample &sample : estimate.samples)
-    {
-      const std::string where = fmt::format("estimate '{}', sample {}", estimate.label(), sample.sample);
-      if (!seen.emplace(estimate.label(), sample.sample).second)
-        throw InputError(fmt::format("evaluate: {} is there twice; pass each run once", where));
-      require_usable_sample(sample, n_steps, where);
-    }
+    const std::string label = estimate.description.label();
+    require_same_case(fmt::format("estimate '{}'", label), estimate.description.case_name, anatomy.case_name);
+    require_condition_name(label);
+    if (estimate.numbers.empty())
+      throw InputError(fmt::format("evaluate: estimate '{}' holds no run; register again", label));
+    for (const int number : estimate.numbers)
+      if (!seen.emplace(label, number).second)
+        throw InputError(
+            fmt::format("evaluate: estimate '{}', sample {} is there twice; pass each run once", label, number));
   }
 }
 } // namespace pelvireg::runner

@@ -102,6 +102,13 @@ struct MissedSlice
   double truth_length = 0; ///< mm of contour that the estimate does not answer
 };
 
+/// Nodes of one body of the registration, those inside too.
+struct BodySize
+{
+  std::string body;
+  int n_nodes = 0;
+};
+
 /// How the truth moved one organ from rest to the last increment, over its surface samples; mm.
 struct OrganMotion
 {
@@ -167,11 +174,18 @@ struct Evaluation
   /// outer surface, and what the reference wrote.
   double vaginal_displacement = 0, reported_vaginal_displacement = 0;
 
-  int n_registration_nodes = 0;                     ///< of all bodies: the count of the paper's Table 1
+  std::vector<BodySize> registration_nodes;         ///< of all bodies, as the paper's Table 1 counts
   std::map<std::string, std::string> perturbations; ///< by condition, what its randomised runs were given: "modulus", …
   std::map<std::string, double> modulus_spreads;    ///< by condition, of Young's moduli
   bool is_inverse_crime = false; ///< the registration itself made the truth: the error says nothing of its model
 
   int n_steps() const { return n_increments * steps_per_increment; }
+  int n_registration_nodes() const
+  {
+    int sum = 0;
+    for (const BodySize &size : registration_nodes)
+      sum += size.n_nodes;
+    return sum;
+  }
 };
 } // namespace pelvireg::runner

@@ -86,17 +86,6 @@ Points material_errors(const Judged &judged, const Context &context, std::size_t
   return displacements - (judged.truth(organ, step).samples - context.truth[organ].rest_samples);
 }
 
-void judge_steps(const Context &context, const Run &run, const Judged &judged, std::size_t organ, RunResult &result)
-{
-  const dataset::SurfaceMesh &mesh = judged.rest(organ).mesh;
-  for (int step = 1; step <= context.last_step(); ++step)
-  {
-    const auto distances = metrics::surface_distances(judged.truth(organ, step).samples, judged.positions(organ, step),
-                                                      mesh.triangles, mesh.region);
-    result.by_step.push_back({run.condition, run.sample, organ_names[organ], step, metrics::describe(distances)});
-  }
-}
-
 void judge_slices(const Context &context, const Run &run, const Judged &judged, std::size_t organ, RunResult &result)
 {
   const dataset::SurfaceMesh &mesh = judged.rest(organ).mesh;
@@ -121,14 +110,14 @@ void judge_slices(const Context &context, const Run &run, const Judged &judged, 
   }
 }
 
+/// `there`: distances of the truth's samples to the organ, mm.
 StepMetrics measure(const Context &context, const Run &run, const Judged &judged, const Position &position,
-                    std::size_t organ, int step)
+                    std::size_t organ, int step, const std::vector<double> &there)
 {
   const TruthIncrement &truth = judged.truth(organ, step);
   const RestOrgan &rest = judged.rest(organ);
   const Points &positions = judged.positions(organ, step);
   const Points errors = material_errors(judged, context, organ, step);
-  const auto there = metrics::surface_distances(truth.samples, position.surfaces[organ].tree());
   const auto back = metrics::surface_distances(
       metrics::sample_positions(rest.own_samples, rest.mesh.triangles, positions), truth.surface);
 
@@ -149,13 +138,11 @@ StepMetrics measure(const Context &context, const Run &run, const Judged &judged
   return row;
 }
 
-void judge_distances(const Context &context, const Run &run, const Judged &judged, std::size_t organ, RunResult &result)
+/// `distances` of the truth's samples to the organ at the last step, mm.
+void judge_distances(const Context &context, const Run &run, const Judged &judged, std::size_t organ,
+                     const std::vector<double> &distances, RunResult &result)
 {
-  const int step = context.last_step();
-  const dataset::SurfaceMesh &mesh = judged.rest(organ).mesh;
-  const auto distances = metrics::surface_distances(judged.truth(organ, step).samples, judged.positions(organ, step),
-                                                    mesh.triangles, mesh.region);
-  const Eigen::VectorXd lengths = material_errors(judged, context, organ, step).rowwise().norm();
+  const Eigen::VectorXd lengths = material_errors(judged, context, organ, context.last_step()).rowwise().norm();
   const std::vector<double> &offsets = context.truth[organ].offsets;
   const double pitch = context.anatomy.slice_pitch;
   const auto surface_bins = metrics::bin_by_offset(offsets, distances, pitch);
@@ -202,6 +189,37 @@ void judge_penetration(const Position &position, int step, std::vector<OrganPene
     }
 }
 
+/// The steps within a position: only how far the surface is.
+void judge_step(const Run &run, const Judged &judged, int step, std::vector<RunResult> &by_organ)
+{
+  for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
+  {
+    const dataset::SurfaceMesh &mesh = judged.rest(organ).mesh;
+    const auto distances = metrics::surface_distances(judged.truth(organ, step).samples, judged.positions(organ, step),
+                                                      mesh.triangles, mesh.region);
+    by_organ[organ].by_step.push_back(
+        {run.condition, run.sample, organ_names[organ], step, metrics::describe(distances)});
+  }
+}
+
+/// The last step of a position: everything.
+void judge_position(const Context &context, const Run &run, const Judged &judged, int step,
+                    std::vector<RunResult> &by_organ, std::vector<OrganPenetration> &pairs)
+{
+  const Position position(judged, step, context.options.line_spacing);
+  for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
+  {
+    RunResult &result = by_organ[organ];
+    const auto distances =
+        metrics::surface_distances(judged.truth(organ, step).samples, position.surfaces[organ].tree());
+    result.by_step.push_back({run.condition, run.sample, organ_names[organ], step, metrics::describe(distances)});
+    result.metrics_by_step.push_back(measure(context, run, judged, position, organ, step, distances));
+    if (step == context.last_step())
+      judge_distances(context, run, judged, organ, distances, result);
+  }
+  judge_penetration(position, step, pairs);
+}
+
 void judge_elements(const Context &context, const Run &run, RunResult &result)
 {
   if (!run.estimate)
@@ -214,44 +232,8 @@ void judge_elements(const Context &context, const Run &run, RunResult &result)
                                metrics::element_jacobian(nodes.rest, nodes.last, body.tets, body.hexes)});
   }
 }
-} // namespace
 
-RestOrgan prepare_rest(const dataset::SurfaceMesh &mesh, const TruthOrgan &truth, double spacing)
-{
-  return {mesh, metrics::sample_surface(mesh, spacing), metrics::closest_samples(mesh, truth.rest_samples),
-          metrics::enclosed_volume(mesh.points, mesh.triangles)};
-}
-
-RunResult judge(const Context &context, const Run &run)
-{
-  const Judged judged(context, run);
-  RunResult result;
-  result.penetrations = organ_pairs(context, run);
-  std::vector<std::vector<StepMetrics>> rows(organ_names.size());
-  for (int step = context.steps_per_increment; step <= context.last_step(); step += context.steps_per_increment)
-    try
-    {
-      const Position position(judged, step, context.options.line_spacing);
-      for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
-        rows[organ].push_back(measure(context, run, judged, position, organ, step));
-      judge_penetration(position, step, result.penetrations);
-    }
-    catch (const InputError &error)
-    {
-      throw InputError(fmt::format("evaluate: condition '{}', sample {}, step {}: {}", run.condition, run.sample, step,
-                                   error.what()));
-    }
-  for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
-  {
-    result.metrics_by_step.insert(result.metrics_by_step.end(), rows[organ].begin(), rows[organ].end());
-    judge_steps(context, run, judged, organ, result);
-    judge_slices(context, run, judged, organ, result);
-    judge_distances(context, run, judged, organ, result);
-  }
-  judge_elements(context, run, result);
-  return result;
-}
-
+/// What a run says of itself.
 RunQuality quality_of(const Run &run, int steps_per_increment)
 {
   RunQuality quality;
@@ -277,5 +259,44 @@ RunQuality quality_of(const Run &run, int steps_per_increment)
     quality.largest_residual = std::max(quality.largest_residual, record.max_in_plane_residual);
   }
   return quality;
+}
+} // namespace
+
+RestOrgan prepare_rest(const dataset::SurfaceMesh &mesh, const TruthOrgan &truth, double spacing)
+{
+  return {mesh, metrics::sample_surface(mesh, spacing), metrics::closest_samples(mesh, truth.rest_samples),
+          metrics::enclosed_volume(mesh.points, mesh.triangles)};
+}
+
+RunResult judge(const Context &context, const Run &run)
+{
+  const Judged judged(context, run);
+  RunResult result;
+  result.penetrations = organ_pairs(context, run);
+  std::vector<RunResult> by_organ(organ_names.size());
+  for (int step = 1; step <= context.last_step(); ++step)
+    try
+    {
+      if (step % context.steps_per_increment == 0)
+        judge_position(context, run, judged, step, by_organ, result.penetrations);
+      else
+        judge_step(run, judged, step, by_organ);
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(fmt::format("evaluate: condition '{}', sample {}, step {}: {}", run.condition, run.sample, step,
+                                   error.what()));
+    }
+  for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
+  {
+    append(result.by_step, by_organ[organ].by_step);
+    append(result.metrics_by_step, by_organ[organ].metrics_by_step);
+    append(result.by_distance, by_organ[organ].by_distance);
+    judge_slices(context, run, judged, organ, result);
+  }
+  judge_elements(context, run, result);
+  if (run.estimate)
+    result.quality = quality_of(run, context.steps_per_increment);
+  return result;
 }
 } // namespace pelvireg::runner

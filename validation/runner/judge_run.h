@@ -5,6 +5,7 @@
 #include "synthetic/dataset/estimate.h"
 #include "validation/runner/truth_organ.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,11 +53,14 @@ struct RunResult
   std::vector<BodyElements> elements;
   std::vector<MissedSlice> missed_slices;
   std::vector<OrganPenetration> penetrations;
+  std::optional<RunQuality> quality; ///< none of unregistered
 };
+
+template <typename Row> void append(std::vector<Row> &rows, const std::vector<Row> &more)
+{
+  rows.insert(rows.end(), more.begin(), more.end());
+}
 
 /// Throws InputError when the run has lost an organ from the DYN plane at the last step.
 RunResult judge(const Context &context, const Run &run);
-
-/// What a run says of itself.
-RunQuality quality_of(const Run &run, int steps_per_increment);
 } // namespace pelvireg::runner

@@ -129,9 +129,16 @@ std::vector<std::string> perturbation_kinds()
   return {"modulus", "surface", "outline", "plane"};
 }
 
+std::vector<std::string> estimate_kinds()
+{
+  std::vector<std::string> kinds = perturbation_kinds();
+  kinds.push_back(dataset::tracked_outlines);
+  return kinds;
+}
+
 void require_usable(const Perturbation &perturbation)
 {
-  const std::vector<std::string> kinds = perturbation_kinds();
+  const std::vector<std::string> kinds = estimate_kinds();
   if (std::find(kinds.begin(), kinds.end(), perturbation.kind) == kinds.end())
     throw InputError(fmt::format("register: perturbation '{}' is unknown, allowed are: {}", perturbation.kind,
                                  fmt::join(kinds, ", ")));

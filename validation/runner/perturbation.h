@@ -17,6 +17,8 @@ namespace pelvireg::runner
 {
 /// "modulus", "surface", "outline", "plane".
 std::vector<std::string> perturbation_kinds();
+/// The same, and dataset::tracked_outlines: all that an estimate can be given.
+std::vector<std::string> estimate_kinds();
 
 /// Throws InputError for an unknown kind, a magnitude out of range (0 <= spread < 1, standard deviations >= 0, a
 /// correlation length > 0 for surfaces) and a magnitude of another kind than this one.

@@ -2,7 +2,9 @@
 #include "validation/runner/aggregate.h"
 #include "validation/runner/aims.h"
 #include "validation/runner/claims.h"
+#include "validation/runner/node_table.h"
 #include "validation/runner/result_files.h"
+#include "validation/runner/table_one.h"
 
 #include <nlohmann/json.hpp>
 
@@ -195,6 +197,22 @@ json penetrations(const Evaluation &evaluation)
   return list;
 }
 
+/// Beside the column of Table 1 that has the size; null without one.
+json registration_nodes(const Evaluation &evaluation)
+{
+  const TableOneColumn *column = table_one_column(evaluation.n_registration_nodes());
+  json bodies = json::array();
+  for (const BodySize &size : evaluation.registration_nodes)
+  {
+    const int wanted = table_one_nodes(evaluation.registration_nodes, size.body);
+    bodies.push_back({{"body", size.body},
+                      {"n_nodes", size.n_nodes},
+                      {"table_1", wanted > 0 ? json(wanted) : json()},
+                      {"difference_percent", wanted > 0 ? json(100.0 * (size.n_nodes - wanted) / wanted) : json()}});
+  }
+  return {{"table_1_data_set", column ? json(column->data_set) : json()}, {"bodies", bodies}};
+}
+
 json missed(const Evaluation &evaluation)
 {
   json list = json::array();
@@ -219,7 +237,8 @@ std::string summary_json(const Evaluation &evaluation, const std::vector<StepTim
   summary["inverse_crime"] = evaluation.is_inverse_crime;
   if (evaluation.is_inverse_crime)
     summary["notice"] = inverse_crime_notice(evaluation);
-  summary["n_registration_nodes"] = evaluation.n_registration_nodes;
+  summary["n_registration_nodes"] = evaluation.n_registration_nodes();
+  summary["registration_nodes"] = registration_nodes(evaluation);
   summary["n_increments"] = evaluation.n_increments;
   summary["n_steps"] = evaluation.n_steps();
   summary["surface_spacing_mm"] = evaluation.options.surface_spacing;

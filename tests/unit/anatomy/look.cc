@@ -82,9 +82,10 @@ int main(int argc, char **argv)
     for (const auto &bar : anatomy.reference.trusses)
     {
       const Eigen::RowVector3d a = nodes_of(anatomy.reference, bar.part_a).row(bar.node_a);
-      const Eigen::RowVector3d b = bar.part_b.empty()
-                                       ? Eigen::RowVector3d(bar.fixed_point.transpose())
-                                       : Eigen::RowVector3d(nodes_of(anatomy.reference, bar.part_b).row(bar.node_b));
+      const Eigen::RowVector3d b =
+          bar.part_b.empty()
+              ? Eigen::RowVector3d(bar.fixed_point.transpose())
+              : Eigen::RowVector3d(nodes_of(anatomy.reference, bar.part_b).row(bar.node_b) + bar.offset_b.transpose());
       lines.push_back({a, b});
       ++groups[bar.group].first;
       groups[bar.group].second += (a - b).norm();

@@ -58,11 +58,15 @@ TEST(AnatomyFile, ComesBackExactly)
   EXPECT_EQ(loaded.case_name, saved.case_name);
   EXPECT_EQ(loaded.dyn_plane.normal, saved.dyn_plane.normal);
   EXPECT_EQ(loaded.n_control_points, saved.n_control_points);
+  EXPECT_EQ(loaded.registration_friction, saved.registration_friction);
   EXPECT_EQ(loaded.control_point_spacing, saved.control_point_spacing);
   const ReferenceShell &shell = loaded.reference.shells.at(0);
   EXPECT_EQ(shell.name, "vagina");
   EXPECT_EQ(shell.midsurface, saved.reference.shells[0].midsurface);
   EXPECT_EQ(shell.cells, saved.reference.shells[0].cells);
+  EXPECT_EQ(shell.pressure_share, saved.reference.shells[0].pressure_share);
+  EXPECT_EQ(loaded.reference.solids.at(0).pressure_share.size(), 0) << "whole faces";
+  EXPECT_EQ(loaded.reference.trusses.at(1).offset_b, saved.reference.trusses[1].offset_b);
   EXPECT_EQ(shell.rims.at(1), saved.reference.shells[0].rims[1]);
   EXPECT_TRUE(shell.has_cavity);
   EXPECT_EQ(shell.cavity.mode, CavityMode::leak);

@@ -76,6 +76,7 @@ Anatomy sample_anatomy()
   anatomy.case_name = "sample";
   anatomy.dyn_plane = tilted_plane;
   anatomy.n_control_points = 64;
+  anatomy.registration_friction = 0.3;
   anatomy.control_point_spacing = 4.25;
   anatomy.reference.materials = {{"wall", {0.01, 0.02, 0.03, 1.0 / 3}}, {"ligament", {0.1, 0, 0, 2}}};
   ReferenceShell shell;
@@ -86,6 +87,7 @@ Anatomy sample_anatomy()
   shell.thickness = Eigen::VectorXd::LinSpaced(12, 2, 3);
   shell.cells = cells_from<Quads9>(2, 12);
   shell.region = integers_from({0, 2});
+  shell.pressure_share = Eigen::VectorXd::LinSpaced(12, 0, 1);
   shell.fixed_nodes = integers_from({4});
   shell.rims = {integers_from({0, 1, 2, 3}), integers_from({8, 9})};
   shell.has_cavity = true;
@@ -99,8 +101,9 @@ Anatomy sample_anatomy()
   solid.region = integers_from({1, 0, 2});
   anatomy.reference.shells = {shell};
   anatomy.reference.solids = {solid};
-  anatomy.reference.trusses = {{"cardinal_left", "vagina", 5, "", -1, {50.5, 1, 2}, 3.5, "ligament"},
-                               {"hiatus", "vagina", 6, "uterus", 2, {0, 0, 0}, 0.5, "ligament", true}};
+  anatomy.reference.trusses = {
+      {"cardinal_left", "vagina", 5, "", -1, {50.5, 1, 2}, 3.5, "ligament"},
+      {"hiatus", "vagina", 6, "uterus", 2, {0, 0, 0}, 0.5, "ligament", true, {0.1, -7, 1.0 / 3}}};
   anatomy.reference.contact_pairs = {{"vagina", "uterus"}};
   anatomy.reference.ties = {{"uterus", "vagina"}};
   anatomy.reference.target_displacement = 2.1;

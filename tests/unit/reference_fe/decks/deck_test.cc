@@ -164,6 +164,17 @@ TEST(Deck, LetsNoNameBecomeAKeyword)
     EXPECT_THAT(deck, Not(HasSubstr(keyword)));
 }
 
+TEST(Deck, PutsTheMeanShareOfThePressureOnAFace)
+{
+  dataset::Anatomy anatomy = sample_deck_anatomy();
+  dataset::ReferenceShell &shell = anatomy.reference.shells[0];
+  shell.pressure_share = shell.midsurface.col(0) / 4; // from 0 to 1 over the plate
+  const std::string deck = abaqus_deck(anatomy, {{1}, {}}, {});
+  EXPECT_THAT(deck, HasSubstr("*DLOAD, AMPLITUDE=ABDOMINAL_PRESSURE\n1,P2,0.5\n"));
+  EXPECT_THAT(deck, Not(HasSubstr("VAGINA_PERITONEAL")));
+  EXPECT_THAT(deck, HasSubstr("UTERUS_PERITONEAL")) << "without shares: whole faces of the region";
+}
+
 TEST(Deck, RefusesWhatItCannotWrite)
 {
   const dataset::Anatomy good = sample_deck_anatomy();

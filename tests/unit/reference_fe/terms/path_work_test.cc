@@ -30,7 +30,7 @@ struct BlownSphere
     for (const SurfaceFace &face : faces(+1))
     {
       const Eigen::Matrix3Xd x = positions(face.nodes, solution(1, 0, 0));
-      outer_volume += swept_rate(x, x) / 3;
+      outer_volume += swept_rate(x, x, Eigen::VectorXd::Ones(x.cols())) / 3;
     }
   }
   std::vector<SurfaceFace> faces(int side) const

@@ -6,6 +6,7 @@
 #include "tests/unit/reference_fe/terms/difference_quotients.h"
 #include "tests/unit/reference_fe/terms/sample_parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -69,6 +70,49 @@ TEST(FollowerPressure, OnAClosedSurfaceIsSelfEquilibratedAndConjugateToItsVolume
       sum += by_pressure[7 * node + k];
     EXPECT_NEAR(sum, 0, 1e-12);
   }
+}
+
+/// Pressure 1 on a sphere of radius 3, set in around the equator: share 1/2 + 3/2 c - 2 c^3 of the height c = z/3
+/// between -1/2 and 1/2, 0 below, 1 above.
+Eigen::Vector3d force_on_the_upper_half(int n)
+{
+  const dataset::ReferenceShell sphere = sphere_shell(n, 3, 0);
+  std::vector<Eigen::VectorXd> shares;
+  for (Eigen::Index c = 0; c < sphere.cells.rows(); ++c)
+  {
+    Eigen::VectorXd share(9);
+    for (int k = 0; k < 9; ++k)
+    {
+      const double height = std::clamp(sphere.midsurface(sphere.cells(c, k), 2) / 3, -0.5, 0.5);
+      share[k] = 0.5 + 1.5 * height - 2 * height * height * height;
+    }
+    shares.push_back(share);
+  }
+  const int pressure = n_unknowns(sphere) - 1;
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(pressure + 1);
+  solution[pressure] = 1;
+  return FollowerPressure(faces_of(sphere, +1), pressure, shares).resultant(solution);
+}
+
+TEST(FollowerPressure, PressesByItsShareOnKnownAreasOnEveryMesh)
+{
+  // -2 pi R^2 int share(c) c dc = -2 pi 9 (0.1 + 0.375)
+  const double exact = -2 * std::numbers::pi * 9 * 0.475;
+  EXPECT_NEAR(force_on_the_upper_half(3).z() / exact, 1, 4e-3);
+  EXPECT_NEAR(force_on_the_upper_half(6).z() / exact, 1, 4e-4);
+  EXPECT_LT(force_on_the_upper_half(6).head<2>().norm(), 1e-10);
+}
+
+TEST(FollowerPressure, TangentIsExactWithShares)
+{
+  const dataset::ReferenceShell cube = cube_shell(1, same, radial, 0.2);
+  const int n = n_unknowns(cube);
+  const std::vector<Eigen::VectorXd> shares(static_cast<std::size_t>(cube.cells.rows()),
+                                            Eigen::VectorXd::LinSpaced(9, 0, 1));
+  const FollowerPressure term(faces_of(cube, +1), n - 1, shares);
+  Eigen::VectorXd solution = 0.1 * scattered(n, 1);
+  solution[n - 1] = 0.7;
+  EXPECT_LT(tangent_error(term, 2, solution, 1e-5), 1e-8);
 }
 
 TEST(Cavity, TangentIsTheDerivativeOfTheResidualAndSymmetric)

@@ -143,7 +143,7 @@ TEST(Claims, OfTheFrameRateNeedThePapersSizeAndItsConstraints)
   const auto verdict = [&](int n_nodes, double outline, double contacts, double ms)
   {
     Evaluation evaluation = judged;
-    evaluation.n_registration_nodes = n_nodes;
+    evaluation.registration_nodes = {{"all", n_nodes}};
     evaluation.quality[0].mean_outline_constraints = outline;
     evaluation.quality[0].mean_contacts = contacts;
     return assess_claims(evaluation, {{"no_contact", 6, 1, 1, 1}, {"full", 6, ms, ms, ms}}).back().verdict;

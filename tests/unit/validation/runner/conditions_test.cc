@@ -61,6 +61,7 @@ TEST(Conditions, ChooseTheRegistrationsOptions)
 {
   dataset::Anatomy anatomy;
   anatomy.registration_time_step = 0.004;
+  anatomy.registration_friction = 0.7;
   for (const std::string &condition : condition_names())
   {
     const registration::Options options = options_of(condition, anatomy);
@@ -68,7 +69,7 @@ TEST(Conditions, ChooseTheRegistrationsOptions)
     EXPECT_EQ(options.time_step, 0.004) << condition;
     EXPECT_EQ(options.use_attachments, !is_bare) << condition;
     EXPECT_EQ(options.use_contact, !is_bare && condition != "no_contact") << condition;
-    EXPECT_EQ(options.friction_coefficient == 0, condition == "no_friction") << condition;
+    EXPECT_EQ(options.friction_coefficient, condition == "no_friction" ? 0 : 0.7) << condition;
   }
 }
 

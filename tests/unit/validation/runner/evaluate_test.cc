@@ -1,13 +1,17 @@
 #include "validation/runner/evaluate.h"
 
+#include "synthetic/dataset/error.h"
 #include "tests/unit/validation/fixtures/shapes.h"
 #include "tests/unit/validation/fixtures/sphere_case.h"
 #include "validation/runner/result_files.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
+#include <memory>
 
 namespace pelvireg::runner
 {
@@ -165,6 +169,89 @@ TEST(Evaluate, GivesTheSameBytesForOneAndTwoThreadsAndAnyOrderOfEstimates)
   EXPECT_EQ(metrics_by_step_csv(one), metrics_by_step_csv(two));
   EXPECT_EQ(errors_by_distance_csv(one), errors_by_distance_csv(two));
   EXPECT_EQ(one.conditions, (std::vector<std::string>{unregistered, "no_boundary_conditions", "full"}));
+}
+
+/// The nominal and four further runs, all different.
+dataset::Estimate several_runs(const std::string &condition)
+{
+  dataset::Estimate estimate = test::sphere_estimate(condition, translation, 0.9);
+  for (const int run : {1, 2, 3, 4})
+  {
+    estimate.samples.push_back(test::sphere_estimate(condition, translation, 0.9 - 0.1 * run).samples.front());
+    estimate.samples.back().sample = run;
+  }
+  return estimate;
+}
+
+/// Every file that the judge writes.
+std::vector<std::string> results_of(const Evaluation &evaluation)
+{
+  return {errors_by_step_csv(evaluation),     errors_by_slice_csv(evaluation), metrics_by_step_csv(evaluation),
+          errors_by_distance_csv(evaluation), curves_by_step_csv(evaluation),  curves_by_slice_csv(evaluation),
+          summary_json(evaluation, {})};
+}
+
+TEST(EvaluateRuns, ReadFromFilesOneByOneGivesTheSameBytesAsFromMemory)
+{
+  const auto folder = std::filesystem::temp_directory_path() / "pelvireg_test_evaluate_runs";
+  std::filesystem::create_directories(folder);
+  const std::vector<dataset::Estimate> estimates = {several_runs("full"), several_runs("no_boundary_conditions")};
+  std::vector<RunSource> sources;
+  for (const dataset::Estimate &estimate : estimates)
+  {
+    dataset::save(estimate, folder / (estimate.label() + ".h5"));
+    sources.push_back(runs_in(folder / (estimate.label() + ".h5")));
+  }
+  const auto at_once = results_of(judged(estimates));
+  for (const int n_threads : {1, 2, 3})
+    EXPECT_EQ(results_of(evaluate_runs(test::sphere_anatomy(), test::sphere_truth(translation), sources,
+                                       {.n_threads = n_threads, .progress = {}})),
+              at_once);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(EvaluateRuns, AsksForEveryRunOnceAndHoldsOneAThread)
+{
+  const dataset::Estimate estimate = several_runs("full");
+  for (const int n_threads : {1, 2})
+  {
+    std::atomic<int> n_asked{0}, n_held{0}, n_most{0};
+    RunSource source = runs_of(estimate);
+    source.run = [&](std::size_t i)
+    {
+      ++n_asked;
+      const int held = ++n_held;
+      int most = n_most;
+      while (held > most && !n_most.compare_exchange_weak(most, held))
+        ;
+      return std::shared_ptr<const dataset::EstimateSample>(&estimate.samples[i],
+                                                            [&](const dataset::EstimateSample *) { --n_held; });
+    };
+    evaluate_runs(test::sphere_anatomy(), test::sphere_truth(translation), {source},
+                  {.n_threads = n_threads, .progress = {}});
+    EXPECT_EQ(n_asked, 5);
+    EXPECT_EQ(n_held, 0);
+    EXPECT_LE(n_most, n_threads);
+  }
+}
+
+TEST(EvaluateRuns, NamesTheFirstBrokenRunForEveryNumberOfThreads)
+{
+  dataset::Estimate estimate = several_runs("full");
+  for (const std::size_t run : {2u, 4u})
+    estimate.samples[run].surfaces[1].positions[3](7, 2) = std::nan("");
+  for (const int n_threads : {1, 2, 4})
+    try
+    {
+      evaluate(test::sphere_anatomy(), test::sphere_truth(translation), {estimate},
+               {.n_threads = n_threads, .progress = {}});
+      ADD_FAILURE() << "not refused";
+    }
+    catch (const InputError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("'full', sample 2, vagina, step 4, node 7"), std::string::npos)
+          << error.what();
+    }
 }
 } // namespace
 } // namespace pelvireg::runner

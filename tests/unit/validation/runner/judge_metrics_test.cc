@@ -198,7 +198,7 @@ TEST(JudgeMetrics, ElementsAreThoseOfTheBodiesThatTheEstimateKeeps)
   EXPECT_EQ(evaluation.elements[0].jacobian.n_elements, 2);
   EXPECT_EQ(evaluation.elements[0].jacobian.n_inverted, 1);
   EXPECT_NEAR(evaluation.elements[0].jacobian.smallest, -2, 1e-14);
-  EXPECT_EQ(evaluation.n_registration_nodes, 4 * 643 + 5);
+  EXPECT_EQ(evaluation.n_registration_nodes(), 4 * 643 + 5);
 }
 
 TEST(JudgeMetrics, SaysWhenTheRegistrationMadeTheTruth)

@@ -107,6 +107,18 @@ TEST(Perturbation, RefusesWhatIsOutOfRangeOrOfAnotherKind)
     EXPECT_EQ(refusal_of(usable), "not refused");
 }
 
+TEST(Perturbation, KnowsOutlinesOfImagesAsAnEstimateThatNothingIsDrawnFor)
+{
+  const Perturbation images{.kind = dataset::tracked_outlines};
+  EXPECT_NO_THROW(require_usable(images));
+  dataset::Estimate estimate;
+  estimate.condition = "full";
+  estimate.perturbation = images;
+  EXPECT_EQ(estimate.label(), "full_images");
+  const std::vector<std::string> kinds = perturbation_kinds();
+  EXPECT_EQ(std::count(kinds.begin(), kinds.end(), dataset::tracked_outlines), 0);
+}
+
 TEST(Perturbed, LeavesTheNominalRunAlone)
 {
   const dataset::Observations given = observations();

@@ -170,5 +170,22 @@ TEST(ErrorTable, NamesEveryConditionOrganAndVerdictWithinTheWidth)
   for (std::string line; std::getline(lines, line);)
     EXPECT_LE(line.size(), 110u) << line;
 }
+
+TEST(Summary, HoldsTheNodesOfEveryBodyBesideTableOne)
+{
+  Evaluation evaluation = judged();
+  evaluation.registration_nodes = {{"bladder", 806},   {"vagina", 1789},       {"uterus", 523},       {"rectum", 2205},
+                                   {"ligaments", 233}, {"fascia_pelvis", 352}, {"fascia_sacrum", 326}};
+  const auto summary = nlohmann::json::parse(summary_json(evaluation));
+  EXPECT_EQ(summary.at("n_registration_nodes"), 6234);
+  const auto &nodes = summary.at("registration_nodes");
+  EXPECT_EQ(nodes.at("table_1_data_set"), "T007");
+  EXPECT_EQ(nodes.at("bodies").at(0).at("table_1"), 772);
+  EXPECT_NEAR(nodes.at("bodies").at(0).at("difference_percent"), 100.0 * 34 / 772, 1e-12);
+  evaluation.registration_nodes.resize(2);
+  EXPECT_TRUE(nlohmann::json::parse(summary_json(evaluation))
+                  .at("/registration_nodes/bodies/0/table_1"_json_pointer)
+                  .is_null());
+}
 } // namespace
 } // namespace pelvireg::runner
