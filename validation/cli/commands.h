@@ -22,6 +22,7 @@ struct Invocation
 
 void add_case_commands(CLI::App &program, Invocation &invocation);     ///< cases, anatomy
 void add_stage_commands(CLI::App &program, Invocation &invocation);    ///< reference, observe, evaluate, report
+void add_images_command(CLI::App &program, Invocation &invocation);    ///< images
 void add_track_command(CLI::App &program, Invocation &invocation);     ///< track
 void add_register_commands(CLI::App &program, Invocation &invocation); ///< register, merge
 void add_run_command(CLI::App &program, Invocation &invocation);       ///< run

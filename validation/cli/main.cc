@@ -42,6 +42,7 @@ void describe(CLI::App &program, pelvireg::cli::Invocation &invocation)
   add_run_command(program, invocation);
   add_case_commands(program, invocation);
   add_stage_commands(program, invocation);
+  add_images_command(program, invocation);
   add_track_command(program, invocation);
   add_register_commands(program, invocation);
   add_study_commands(program, invocation);

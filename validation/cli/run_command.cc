@@ -1,6 +1,7 @@
 #include "synthetic/anatomy/case.h"
 #include "validation/cli/case_overview.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/images_stage.h"
 #include "validation/cli/track_stage.h"
 #include "validation/runner/register.h"
 
@@ -75,7 +76,10 @@ void run_chain(const std::string &case_name, const std::filesystem::path &out, c
   make_truth(directory, given.jobs);
   make_observations(directory);
   if (from_images(given))
+  {
+    make_image_files(directory, {.n_threads = given.jobs});
     make_tracked(directory, {.all = true});
+  }
   for (const RegisterRequest &request : requests)
     make_estimate(directory, request, given.jobs);
   Judge judge(given.jobs);

@@ -119,7 +119,7 @@ void make_tracked(ResultDirectory &directory, const TrackRequest &request)
 {
   directory.run({.name = "track",
                  .code = {"registration/tracking", "validation/metrics", "validation/runner", "validation/report",
-                          "synthetic/observation", "synthetic/dataset"},
+                          "synthetic/observation", "synthetic/observation/images", "synthetic/dataset"},
                  .options = fmt::format("tracker {} all {} uterus border {}", request.tracker, request.all,
                                         request.uterus_border),
                  .inputs = {"truth.h5", "observations.h5", images},

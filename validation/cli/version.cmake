@@ -1,6 +1,7 @@
 # Run at build time: cmake -D ROOT=… -D OUTPUT=… -D VERSION=… -D BUILD=… -P version.cmake
 # Writes version.cc, and touches it only when something has changed.
 set(folders registration registration/tracking reference_fe reference_fe/decks synthetic/dataset synthetic/anatomy synthetic/observation
+            synthetic/observation/images
             validation/metrics validation/runner validation/report)
 
 set(revision unknown)
@@ -23,8 +24,12 @@ endif()
 set(digests "")
 foreach(folder ${folders})
   file(GLOB_RECURSE sources LIST_DIRECTORIES false RELATIVE ${ROOT} "${ROOT}/${folder}/*")
-  # The solver knows nothing of decks, the registration nothing of images, and of the cases each result has its own text.
-  list(FILTER sources EXCLUDE REGEX "^${folder}/(decks|cases|tracking)/")
+  # The solver knows nothing of decks, registration and outlines nothing of images, and each result has its own case's text.
+  list(FILTER sources EXCLUDE REGEX "^${folder}/(decks|cases|tracking|images)/")
+  list(FILTER sources EXCLUDE REGEX "^synthetic/dataset/image_series")
+  if(folder STREQUAL "synthetic/observation/images")
+    list(APPEND sources synthetic/dataset/image_series.h)
+  endif()
   list(SORT sources)
   set(all "")
   foreach(source ${sources})
