@@ -35,6 +35,9 @@ Notes work(const std::filesystem::path &directory, const observation::ImageOptio
   observation::write_nrrd(images.dyn, folder / "dyn.nrrd");
   observation::write_nrrd(images.tse, folder / "tse.nrrd");
   observation::write_nrrd(images.ffe, folder / "ffe.nrrd");
+  observation::write_dicom(images.dyn, truth.case_name, folder / "dyn");
+  observation::write_dicom(images.tse, truth.case_name, folder / "tse");
+  observation::write_dicom(images.ffe, truth.case_name, folder / "ffe");
   return {{"snr", options.snr}, {"frames", static_cast<double>(images.dyn.times_s.size())}};
 }
 } // namespace

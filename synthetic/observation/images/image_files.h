@@ -4,6 +4,7 @@
 #include "synthetic/dataset/image_series.h"
 
 #include <filesystem>
+#include <string>
 
 namespace pelvireg::observation
 {
@@ -29,4 +30,11 @@ dataset::ImageVolume read_image_volume(const std::filesystem::path &path);
 /// ones. Whole or not at all; no time stamps. Throws InputError for an image that image_checks.h refuses.
 void write_nrrd(const dataset::ImageSeries &series, const std::filesystem::path &file);
 void write_nrrd(const dataset::ImageVolume &volume, const std::filesystem::path &file);
+
+/// One file an image, 0001.dcm …; explicit VR, little endian, 16 bit, one slope for the series: a pixel read back
+/// differs by at most half a slope, which is the range of all pixels / 65535. `study` names patient and study; UIDs
+/// come from the SHA-256 of study and content (2.25, UUID version 8), so the same images give the same bytes. What lay
+/// in the folder is replaced as a whole. Throws InputError for an image that image_checks.h refuses.
+void write_dicom(const dataset::ImageSeries &series, const std::string &study, const std::filesystem::path &folder);
+void write_dicom(const dataset::ImageVolume &volume, const std::string &study, const std::filesystem::path &folder);
 } // namespace pelvireg::observation
