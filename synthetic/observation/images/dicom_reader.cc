@@ -165,6 +165,26 @@ dataset::ImageGeometry geometry_of(const gdcm::Image &image, const gdcm::DataSet
   return geometry;
 }
 
+/// GDCM takes a file that ends within its pixels. No element is shorter in a file than its value and 8 bytes, and that
+/// of pixels in explicit VR has 4 more; the preamble, where there is one, has
+/// 132.
+void check_length(const std::filesystem::path &file, const gdcm::File &content, const std::string &where)
+{
+  const gdcm::TransferSyntax syntax = content.GetHeader().GetDataSetTransferSyntax();
+  if (syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian)
+    return;
+  std::uintmax_t least = content.GetHeader().IsEmpty() ? 0 : 132;
+  for (const gdcm::DataElement &element : content.GetHeader().GetDES())
+    least += 8 + (element.GetByteValue() ? static_cast<std::uintmax_t>(element.GetByteValue()->GetLength()) : 0);
+  for (const gdcm::DataElement &element : content.GetDataSet().GetDES())
+    least += 8 + (element.GetByteValue() ? static_cast<std::uintmax_t>(element.GetByteValue()->GetLength()) : 0);
+  if (syntax.IsExplicit())
+    least += 4;
+  if (std::filesystem::file_size(file) < least)
+    throw InputError(fmt::format("{} ends too soon: it has {} bytes, but its fields need {}; copy it again.", where,
+                                 std::filesystem::file_size(file), least));
+}
+
 DicomImage image_in(const std::filesystem::path &file)
 {
   DicomImage image;
@@ -174,6 +194,7 @@ DicomImage image_in(const std::filesystem::path &file)
   if (!reader.Read())
     throw InputError(image.where + " cannot be read as a DICOM image (damaged, or something else); remove it from the "
                                    "folder or copy it again.");
+  check_length(file, reader.GetFile(), image.where);
   const gdcm::DataSet &set = reader.GetFile().GetDataSet();
   check_kind(reader.GetImage(), set, image.where);
   image.geometry = geometry_of(reader.GetImage(), set, image.where);

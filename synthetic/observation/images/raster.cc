@@ -35,7 +35,7 @@ void add_piece(double x0, double x1, double height, Eigen::Index row, Raster &di
   }
 }
 
-/// An edge, cut at the borders of the rows. Left of the raster it counts from its border on, right of it not at all.
+/// An edge, piece by piece. Left of the raster it counts from its border on, right of it not at all.
 void add_edge(Eigen::Vector2d from, Eigen::Vector2d to, Raster &difference)
 {
   const double sign = to.y() > from.y() ? -1 : 1;
@@ -47,9 +47,14 @@ void add_edge(Eigen::Vector2d from, Eigen::Vector2d to, Raster &difference)
     return;
   const double slope = (to.x() - from.x()) / (to.y() - from.y());
   const auto x_at = [&](double y) { return std::clamp(from.x() + slope * (y - from.y()), 0.0, columns); };
+  const double left_at = from.y() - from.x() / slope, right_at = from.y() + (columns - from.x()) / slope;
   for (double y = first; y < last;)
   {
-    const double next = std::min(std::floor(y) + 1, last);
+    // Pieces end where the edge meets a row's border or a side of the raster, beyond which it runs along that side.
+    double next = std::min(std::floor(y) + 1, last);
+    for (const double side : {left_at, right_at})
+      if (side > y && side < next)
+        next = side;
     add_piece(x_at(y), x_at(next), sign * (next - y), static_cast<Eigen::Index>(y), difference);
     y = next;
   }

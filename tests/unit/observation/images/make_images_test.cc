@@ -1,0 +1,167 @@
+// The images of a small pelvis of balls: frames, planes, places, bytes.
+#include "synthetic/dataset/error.h"
+#include "synthetic/observation/images/make_images.h"
+#include "synthetic/observation/images/raster.h"
+#include "tests/unit/observation/images/sample_images.h"
+#include "tests/unit/observation/surfaces.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pelvireg::observation::test
+{
+namespace
+{
+using ::testing::HasSubstr;
+
+/// Four balls behind and above each other; all move by 2 mm down and 1 mm back an increment, two increments.
+struct BallPelvis
+{
+  dataset::Anatomy anatomy;
+  dataset::Truth truth;
+
+  BallPelvis()
+  {
+    anatomy.case_name = truth.case_name = "balls";
+    anatomy.dyn_plane = {{2, 40, 40}, Vector3d(1, 0.05, 0).normalized()};
+    anatomy.n_slices_each_side = 1;
+    truth.increments.resize(2);
+    int i = 0;
+    for (const std::string &organ : dataset::organ_names)
+    {
+      dataset::SurfaceMesh mesh = sphere(14, 4);
+      mesh.points.rowwise() += Eigen::RowVector3d(0, 10 + 36 * (i % 2), 20 + 36 * (i / 2));
+      ++i;
+      dataset::Points motion(mesh.points.rows(), 3);
+      motion.rowwise() = Eigen::RowVector3d(0, 1, -2);
+      truth.surfaces.push_back({organ, mesh, {motion, 2 * motion}});
+      if (organ != "uterus")
+      {
+        dataset::ReferenceShell shell;
+        shell.name = organ;
+        shell.midsurface = mesh.points;
+        shell.directors = dataset::Points::Zero(mesh.points.rows(), 3);
+        shell.thickness = Eigen::VectorXd::Constant(mesh.points.rows(), 3);
+        anatomy.reference.shells.push_back(shell);
+      }
+    }
+  }
+};
+
+ImageOptions small_options()
+{
+  return {.matrix = 64, .pixel = 3, .snr = 0, .static_snr = 0, .frames_per_increment = 3, .segments = 1};
+}
+
+/// Centre of the urine (brighter than half) in a frame, mm; weighted by what is above half.
+Eigen::Vector2d urine_centre(const dataset::ImageSeries &series, int frame)
+{
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+  double sum = 0;
+  const dataset::ImageGeometry &geometry = series.geometry;
+  // The bladder is the lower front ball: rest centre (0, 10, 20).
+  const Eigen::Vector2d near = to_pixel(geometry, {0, 10, 20});
+  for (int row = 0; row < geometry.rows; ++row)
+    for (int column = 0; column < geometry.columns; ++column)
+      if ((Eigen::Vector2d(column, row) - near).norm() < 6.5)
+      {
+        const double value =
+            series.pixels[static_cast<std::size_t>((frame * geometry.rows + row) * geometry.columns + column)];
+        const double weight = std::max(0.0, value - 0.75);
+        moment += weight * Eigen::Vector2d(column, row);
+        sum += weight;
+      }
+  return 3 * moment / sum;
+}
+} // namespace
+
+TEST(Images, HaveAFrameAtRestAndAMultipleAnIncrement)
+{
+  const BallPelvis pelvis;
+  const Images images = make_images(pelvis.anatomy, pelvis.truth, small_options());
+  ASSERT_EQ(images.dyn.times_s.size(), 7u);
+  EXPECT_EQ(images.dyn.times_s[6], 1.5); // 4 frames a second
+  EXPECT_EQ(images.ffe.slices, 3);
+  EXPECT_EQ(images.tse.geometry.columns, 96);
+  EXPECT_EQ(images.tse.geometry.spacing[0], 1.5);
+}
+
+TEST(Images, LieInTheirPlanes)
+{
+  const BallPelvis pelvis;
+  const Images images = make_images(pelvis.anatomy, pelvis.truth, small_options());
+  const auto &plane = pelvis.anatomy.dyn_plane;
+  for (const auto &[column, row] : {std::pair(0, 0), std::pair(63, 0), std::pair(12, 63)})
+  {
+    EXPECT_NEAR((to_point(images.dyn.geometry, column, row) - plane.origin).dot(plane.normal), 0, 1e-9);
+    EXPECT_NEAR((to_point(images.ffe.geometry, column, row) - plane.origin).dot(plane.normal), -6, 1e-9); // slice -1
+  }
+  EXPECT_LT((images.ffe.slice_step - 6 * plane.normal).norm(), 1e-12);
+  EXPECT_GT(images.dyn.geometry.column_direction.y(), 0.99);
+  EXPECT_NEAR(images.dyn.geometry.row_direction.z(), -1, 1e-9);
+}
+
+TEST(Images, ShowTheOrgansWhereTheTruthHasThem)
+{
+  const BallPelvis pelvis;
+  const Images images = make_images(pelvis.anatomy, pelvis.truth, small_options());
+  const Eigen::Vector2d rest = urine_centre(images.dyn, 0);
+  const Eigen::Vector2d expected = 3 * to_pixel(images.dyn.geometry, {0, 10, 20});
+  EXPECT_LT((rest - expected).norm(), 0.3); // a tenth of a pixel of 3 mm: ringing and coil shading
+  for (const int frame : {1, 3, 6})
+  {
+    const Eigen::Vector2d moved = urine_centre(images.dyn, frame) - rest;
+    EXPECT_LT((moved - frame / 3.0 * Eigen::Vector2d(1, 2)).norm(), 0.3) << frame;
+  }
+}
+
+TEST(Images, AreTheSameBytesForAnyNumberOfThreads)
+{
+  const BallPelvis pelvis;
+  ImageOptions options = small_options();
+  options.snr = 10;
+  options.segments = 3;
+  const Images one = make_images(pelvis.anatomy, pelvis.truth, options);
+  options.n_threads = 2;
+  const Images two = make_images(pelvis.anatomy, pelvis.truth, options);
+  EXPECT_EQ(one.dyn.pixels, two.dyn.pixels);
+  EXPECT_EQ(one.tse.pixels, two.tse.pixels);
+  EXPECT_EQ(one.ffe.pixels, two.ffe.pixels);
+}
+
+TEST(Images, BlurWhatMovesWithinAFrame)
+{
+  const BallPelvis pelvis;
+  ImageOptions options = small_options();
+  const Images still = make_images(pelvis.anatomy, pelvis.truth, options);
+  options.segments = 5;
+  const Images moving = make_images(pelvis.anatomy, pelvis.truth, options);
+  const std::size_t size = 64 * 64;
+  double in_motion = 0;
+  for (std::size_t i = 0; i < size; ++i)
+    in_motion = std::max(
+        in_motion, std::abs(static_cast<double>(still.dyn.pixels[3 * size + i] - moving.dyn.pixels[3 * size + i])));
+  EXPECT_GT(in_motion, 0.01);
+  EXPECT_LT((urine_centre(moving.dyn, 3) - urine_centre(still.dyn, 3)).norm(), 0.1); // mm: the time is the middle
+}
+
+TEST(Images, RefuseOptionsOutOfRangeAndAnotherCase)
+{
+  BallPelvis pelvis;
+  const auto refusal = [&](auto &&change)
+  {
+    ImageOptions options = small_options();
+    change(options);
+    return refusal_of([&] { make_images(pelvis.anatomy, pelvis.truth, options); });
+  };
+  EXPECT_THAT(refusal([](ImageOptions &o) { o.matrix = 63; }), HasSubstr("matrix"));
+  EXPECT_THAT(refusal([](ImageOptions &o) { o.snr = -1; }), HasSubstr("signal-to-noise"));
+  EXPECT_THAT(refusal([](ImageOptions &o) { o.snr = std::nan(""); }), HasSubstr("signal-to-noise"));
+  EXPECT_THAT(refusal([](ImageOptions &o) { o.segments = 2; }), HasSubstr("odd"));
+  EXPECT_THAT(refusal([](ImageOptions &o) { o.pixel = 9; }), HasSubstr("pixel"));
+  pelvis.truth.case_name = "other";
+  EXPECT_THAT(refusal([](ImageOptions &) {}), HasSubstr("must be of one case"));
+}
+} // namespace pelvireg::observation::test
