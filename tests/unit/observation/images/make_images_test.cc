@@ -55,17 +55,23 @@ ImageOptions small_options()
   return {.matrix = 64, .pixel = 3, .snr = 0, .static_snr = 0, .frames_per_increment = 3, .segments = 1};
 }
 
-/// Centre of the urine (brighter than half) in a frame, mm; weighted by what is above half.
+/// The lower ball in front.
+Vector3d bladder_centre(int frame)
+{
+  return Vector3d(0, 10, 20) + frame / 3.0 * Vector3d(0, 1, -2);
+}
+
+/// Centre of the urine in a frame, mm, weighted by what is brighter than 0.75. Only pixels within 13.5 mm of where the
+/// bladder should be count: its lumen, 11 mm, and wall, 14 mm; not the fat around it, which the coils make as bright.
 Eigen::Vector2d urine_centre(const dataset::ImageSeries &series, int frame)
 {
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
   double sum = 0;
   const dataset::ImageGeometry &geometry = series.geometry;
-  // The bladder is the lower front ball: rest centre (0, 10, 20).
-  const Eigen::Vector2d near = to_pixel(geometry, {0, 10, 20});
+  const Eigen::Vector2d near = to_pixel(geometry, bladder_centre(frame));
   for (int row = 0; row < geometry.rows; ++row)
     for (int column = 0; column < geometry.columns; ++column)
-      if ((Eigen::Vector2d(column, row) - near).norm() < 6.5)
+      if ((Eigen::Vector2d(column, row) - near).norm() < 4.5)
       {
         const double value =
             series.pixels[static_cast<std::size_t>((frame * geometry.rows + row) * geometry.columns + column)];
@@ -107,14 +113,10 @@ TEST(Images, ShowTheOrgansWhereTheTruthHasThem)
 {
   const BallPelvis pelvis;
   const Images images = make_images(pelvis.anatomy, pelvis.truth, small_options());
-  const Eigen::Vector2d rest = urine_centre(images.dyn, 0);
-  const Eigen::Vector2d expected = 3 * to_pixel(images.dyn.geometry, {0, 10, 20});
-  EXPECT_LT((rest - expected).norm(), 0.3); // a tenth of a pixel of 3 mm: ringing and coil shading
-  for (const int frame : {1, 3, 6})
-  {
-    const Eigen::Vector2d moved = urine_centre(images.dyn, frame) - rest;
-    EXPECT_LT((moved - frame / 3.0 * Eigen::Vector2d(1, 2)).norm(), 0.3) << frame;
-  }
+  // A twentieth of a pixel of 3 mm, for coil shading and ringing.
+  for (const int frame : {0, 1, 3, 6})
+    EXPECT_LT((urine_centre(images.dyn, frame) - 3 * to_pixel(images.dyn.geometry, bladder_centre(frame))).norm(), 0.15)
+        << frame;
 }
 
 TEST(Images, AreTheSameBytesForAnyNumberOfThreads)
@@ -143,7 +145,7 @@ TEST(Images, BlurWhatMovesWithinAFrame)
   for (std::size_t i = 0; i < size; ++i)
     in_motion = std::max(
         in_motion, std::abs(static_cast<double>(still.dyn.pixels[3 * size + i] - moving.dyn.pixels[3 * size + i])));
-  EXPECT_GT(in_motion, 0.01);
+  EXPECT_GT(in_motion, 1e-3);                                                        // single precision has 1e-6
   EXPECT_LT((urine_centre(moving.dyn, 3) - urine_centre(still.dyn, 3)).norm(), 0.1); // mm: the time is the middle
 }
 
