@@ -103,6 +103,7 @@ dataset::Anatomy cube_anatomy()
   dataset::Anatomy anatomy;
   anatomy.case_name = "spheres";
   anatomy.registration_steps_per_increment = 3;
+  anatomy.registration_friction = 0.1;
   for (std::size_t organ = 0; organ < dataset::organ_names.size(); ++organ)
     anatomy.registration.bodies.push_back(
         cube(dataset::organ_names[organ], {-11, 0, 40.0 * static_cast<double>(organ)}, 20, 3));

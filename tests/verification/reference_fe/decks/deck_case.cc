@@ -210,6 +210,7 @@ dataset::Anatomy bare_parts(const std::string &case_name, const std::vector<std:
   {
     shell.has_cavity = false;
     shell.rims.clear();
+    shell.pressure_share.resize(0); // by region
   }
   if (std::find(parts.begin(), parts.end(), "vagina") != parts.end())
     return anatomy;

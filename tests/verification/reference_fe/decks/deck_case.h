@@ -12,7 +12,8 @@
 namespace pelvireg::reference_fe::deck_case
 {
 /// Parts of a built-in case with their bars, without fluid, contact and what else they hang together with. When none of
-/// them is the vagina, the first shell is called so: the reference measures that part. One increment a pressure.
+/// them is the vagina, the first shell is called so: the reference measures that part. Whole cells carry the pressure, by
+/// their region, so that a deck, which knows one value a face, has the same load. One increment a pressure.
 dataset::Anatomy bare_parts(const std::string &case_name, const std::vector<std::string> &parts, int n_increments);
 
 /// Every quadrilateral in four, on the same biquadratic surface; nodes that were there keep their numbers. Every bar
