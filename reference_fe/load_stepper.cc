@@ -40,20 +40,15 @@ LoadStepper::LoadStepper(PelvisModel &model, const LoadStepperOptions &options)
 StepEffort LoadStepper::start(double target)
 {
   StepEffort effort;
-  model_.probe->prescribe_pressure(options_.start_pressure);
-  while (!try_step(0, unlimited, effort))
-  {
+  while (!try_pressure(0, options_.start_pressure * motion_ / options_.motion, effort))
     cut(effort);
-    model_.probe->prescribe_pressure(options_.start_pressure * motion_ / options_.motion);
-  }
   while (current_.displacement < options_.start_displacement * target)
   {
     const double motion = motion_between(previous_.solution, current_.solution);
     const double displacement = current_.displacement - previous_.displacement;
     // Not past the first displacement wanted, nor more than a fivefold pressure at once.
     const double ratio = std::min({motion_ / motion, 4., 2 * options_.start_displacement * target / displacement});
-    model_.probe->prescribe_pressure(current_.pressure + ratio * (current_.pressure - previous_.pressure));
-    if (!try_step(ratio, unlimited, effort))
+    if (!try_pressure(ratio, current_.pressure + ratio * (current_.pressure - previous_.pressure), effort))
       cut(effort);
   }
   return effort;
@@ -71,7 +66,7 @@ StepEffort LoadStepper::advance_to(double target)
     const bool lands = left <= 1.1 * possible;
     const double ratio = lands || left > 10 * possible ? std::min(left, possible) : left / std::ceil(left / possible);
     control_step(lands, target, ratio);
-    if (!try_step(ratio, lands ? unlimited : target, effort))
+    if (!try_step(predicted(ratio), lands ? unlimited : target, effort))
       cut(effort);
     else if (lands)
       break;
@@ -89,7 +84,7 @@ void LoadStepper::control_step(bool lands, double target, double ratio)
     return;
   }
   model_.probe->release();
-  model_.path->prescribe(current_.solution, current_.solution + ratio * (current_.solution - previous_.solution));
+  model_.path->prescribe(current_.solution, predicted(ratio));
 }
 
 void LoadStepper::begin_step(double displacement)
@@ -99,9 +94,21 @@ void LoadStepper::begin_step(double displacement)
     cavity->begin_step(step_end_);
 }
 
-bool LoadStepper::try_step(double ratio, double largest_displacement, StepEffort &effort)
+Eigen::VectorXd LoadStepper::predicted(double ratio) const
 {
-  Eigen::VectorXd trial = current_.solution + ratio * (current_.solution - previous_.solution);
+  return current_.solution + ratio * (current_.solution - previous_.solution);
+}
+
+bool LoadStepper::try_pressure(double ratio, double pressure, StepEffort &effort)
+{
+  model_.probe->prescribe_pressure(pressure);
+  Eigen::VectorXd trial = predicted(ratio);
+  trial[model_.pressure_unknown] = pressure;
+  return try_step(std::move(trial), unlimited, effort);
+}
+
+bool LoadStepper::try_step(Eigen::VectorXd trial, double largest_displacement, StepEffort &effort)
+{
   const int iterations_before = effort.newton_iterations;
   const bool is_solved = solve(trial, effort);
   const double motion = motion_between(current_.solution, trial);

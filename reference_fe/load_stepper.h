@@ -65,9 +65,14 @@ private:
     double pressure = 0;       ///< MPa
     double load_parameter = 0; ///< increments
   };
-  /// One step along the path: predictor current + ratio (current - previous), equilibrium, acceptance. False: cut.
-  /// A step past `largest_displacement` (mm) is thrown away too.
-  bool try_step(double ratio, double largest_displacement, StepEffort &effort);
+  /// current + ratio (current - previous).
+  Eigen::VectorXd predicted(double ratio) const;
+  /// One step along the path from a predictor: equilibrium, acceptance. False: cut. A step past `largest_displacement`
+  /// (mm) is thrown away too.
+  bool try_step(Eigen::VectorXd trial, double largest_displacement, StepEffort &effort);
+  /// The same under a prescribed pressure, MPa. The predictor has it already: its row counts MPa as N, so that a low
+  /// pressure not yet applied would pass for equilibrium, and to apply it would seem to raise the residual.
+  bool try_pressure(double ratio, double pressure, StepEffort &effort);
   void control_step(bool lands, double target, double ratio);
   /// Tell the cavities that the step to be solved is to end at this displacement, mm.
   void begin_step(double displacement);

@@ -56,6 +56,22 @@ void check_outline(const InitialOutline &outline, const Image &image)
           outline.organ, ": has ", outline.has_border.size(), " border flags for ", n,
           " segments, must be one each or none");
 }
+template <class Tracker> std::unique_ptr<OutlineTracker> make(const Options &options)
+{
+  return std::make_unique<Tracker>(options);
+}
+
+struct TrackerKind
+{
+  const char *name;
+  std::unique_ptr<OutlineTracker> (*make)(const Options &);
+};
+
+constexpr TrackerKind tracker_kinds[] = {{"bezier", make<BezierTracker>},
+                                         {"static", make<StaticTracker>},
+                                         {"lk_joints", make<JointFlowTracker>},
+                                         {"dense_flow", make<DenseFlowTracker>},
+                                         {"snake", make<SnakeTracker>}};
 } // namespace
 
 std::vector<std::string> Options::violations() const
@@ -98,7 +114,13 @@ TrackedFrame OutlineTracker::update(const Image &frame)
 
 const std::vector<std::string> &tracker_names()
 {
-  static const std::vector<std::string> names = {"bezier", "static", "lk_joints", "dense_flow", "snake"};
+  static const std::vector<std::string> names = []
+  {
+    std::vector<std::string> all;
+    for (const TrackerKind &kind : tracker_kinds)
+      all.emplace_back(kind.name);
+    return all;
+  }();
   return names;
 }
 
@@ -107,17 +129,13 @@ std::unique_ptr<OutlineTracker> make_tracker(const std::string &name, const Opti
   const std::vector<std::string> problems = options.violations();
   if (!problems.empty())
     throw std::invalid_argument(problems.front());
-  if (name == "bezier")
-    return std::make_unique<BezierTracker>(options);
-  if (name == "static")
-    return std::make_unique<StaticTracker>();
-  if (name == "lk_joints")
-    return std::make_unique<JointFlowTracker>(options);
-  if (name == "dense_flow")
-    return std::make_unique<DenseFlowTracker>(options);
-  if (name == "snake")
-    return std::make_unique<SnakeTracker>(options);
-  throw std::invalid_argument("unknown tracker '" + name +
-                              "'; one of bezier, static, lk_joints, dense_flow, snake is allowed");
+  std::string allowed;
+  for (const TrackerKind &kind : tracker_kinds)
+  {
+    if (name == kind.name)
+      return kind.make(options);
+    allowed += std::string(allowed.empty() ? "" : ", ") + kind.name;
+  }
+  throw std::invalid_argument("unknown tracker '" + name + "'; one of " + allowed + " is allowed");
 }
 } // namespace pelvireg::tracking

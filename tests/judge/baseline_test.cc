@@ -4,6 +4,7 @@
 #include "synthetic/dataset/error.h"
 #include "tests/judge/faults.h"
 #include "tests/judge/result_directory.h"
+#include "tests/scratch_folder.h"
 #include "validation/cli/sha256.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +51,7 @@ protected:
     test::write_result(other, result);
   }
 
-  test::TemporaryFolder folder;
+  test::ScratchFolder folder;
   const fs::path result = folder.path() / "result", base = folder.path() / "base";
 };
 

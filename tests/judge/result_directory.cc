@@ -95,15 +95,4 @@ void edit(const fs::path &file, const std::string &pattern, const std::string &r
   if (in_manifest)
     edit(file.parent_path() / "manifest.json", cli::sha256_of_text(before), cli::sha256_of_text(after));
 }
-
-TemporaryFolder::TemporaryFolder()
-{
-  std::string name = (fs::temp_directory_path() / "pelvireg-test-XXXXXX").string();
-  path_ = ::mkdtemp(name.data());
-}
-
-TemporaryFolder::~TemporaryFolder()
-{
-  fs::remove_all(path_);
-}
 } // namespace pelvireg::test

@@ -16,15 +16,4 @@ void write_result(const regression::ErrorResult &result, const std::filesystem::
 void edit(const std::filesystem::path &file, const std::string &pattern, const std::string &replacement,
           bool in_manifest = false);
 
-/// Removed with all its content at the end.
-class TemporaryFolder
-{
-public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  const std::filesystem::path &path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
-};
 } // namespace pelvireg::test

@@ -1,6 +1,8 @@
 // The pelvireg program as a person or CI calls it, in a folder of its own.
 #pragma once
 
+#include "tests/scratch_folder.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,13 +33,6 @@ struct Outcome
 class Program : public ::testing::Test
 {
 protected:
-  Program()
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "pelvireg-test-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~Program() override { std::filesystem::remove_all(folder_); }
-
   Outcome call(const std::string &arguments) const
   {
     const std::filesystem::path out = folder_ / "stdout", err = folder_ / "stderr";
@@ -67,6 +62,7 @@ protected:
     return names;
   }
 
-  std::filesystem::path folder_;
+  const test::ScratchFolder scratch_;
+  std::filesystem::path folder_ = scratch_.path();
 };
 } // namespace pelvireg

@@ -1,4 +1,5 @@
 #include "synthetic/anatomy/case.h"
+#include "synthetic/dataset/error.h"
 #include "validation/cli/case_overview.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/images_stage.h"
@@ -70,6 +71,10 @@ void run_chain(const std::string &case_name, const std::filesystem::path &out, c
       requests.push_back(request);
   const std::string text = anatomy::case_text(case_name);
   const std::string label = case_label(case_name);
+  if (const auto images = out / dynamic_images; from_images(given) && !std::filesystem::exists(images))
+    throw InputError(fmt::format("run --from images: '{}' does not exist, a dynamic series of the image plane with one "
+                                 "frame at rest and a whole number an increment is needed; put it there",
+                                 images.string()));
   ResultDirectory directory(out, command_line, ResultDirectory::Missing::create);
 
   make_anatomy(directory, label, text);
@@ -134,7 +139,6 @@ void add_run_command(CLI::App &program, Invocation &invocation)
   add_jobs_option(*command, arguments->jobs);
   command->footer("Examples:\n  pelvireg run quick\n  pelvireg run t005 --out out/t005 --jobs 2\n"
                   "  pelvireg run t005 --conditions all\n"
-                  "  pelvireg run t005 --from images\n"
                   "  pelvireg run all --conditions all --samples 100\n"
                   "  pelvireg run t005 --samples 100 --perturb modulus,surface,outline,plane\nA stage whose inputs "
                   "have not changed is not run again.");

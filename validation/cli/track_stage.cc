@@ -4,6 +4,7 @@
 #include "synthetic/dataset/error.h"
 #include "synthetic/dataset/estimate.h"
 #include "synthetic/observation/images/image_files.h"
+#include "validation/regression/result.h"
 #include "validation/report/contour_error_figure.h"
 #include "validation/report/track_figures.h"
 #include "validation/runner/outline_tracking.h"
@@ -11,14 +12,12 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <map>
 #include <sstream>
 
 namespace pelvireg::cli
 {
 namespace
 {
-const std::string images = "images/dyn.nrrd";
 const std::string error_figure = "pictures/contour_errors.svg";
 
 /// Frames an increment, from the numbers of both.
@@ -28,7 +27,7 @@ int frames_per_increment(const dataset::ImageSeries &series, const dataset::Obse
   if (increments == 0 || frames < 2 || (frames - 1) % increments != 0)
     throw InputError(fmt::format("track: '{}' has {} frames for {} increments, must have one and a multiple of the "
                                  "increments; make the images again",
-                                 images, frames, increments));
+                                 dynamic_images, frames, increments));
   return static_cast<int>((frames - 1) / increments);
 }
 
@@ -67,7 +66,7 @@ Notes work(const std::filesystem::path &directory, const TrackRequest &request, 
 {
   const dataset::Observations observations = dataset::load_observations(directory / "observations.h5");
   const dataset::Truth truth = dataset::load_truth(directory / "truth.h5");
-  const dataset::ImageSeries series = observation::read_image_series(directory / images);
+  const dataset::ImageSeries series = observation::read_image_series(directory / dynamic_images);
   const int per_increment = frames_per_increment(series, observations);
   const std::vector<runner::OrganContour> rest = runner::rest_contours(observations.rest);
 
@@ -95,23 +94,10 @@ Notes work(const std::filesystem::path &directory, const TrackRequest &request, 
   return notes;
 }
 
-/// Mean surface error at the last step of the nominal run, by condition and organ.
-std::map<std::string, std::map<std::string, double>> last_errors(const std::filesystem::path &file)
+/// Mean surface error at the last step of the nominal run.
+double last_error(const regression::Curves &curves, const std::string &condition, const std::string &organ)
 {
-  std::map<std::string, std::map<std::string, double>> errors;
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  while (std::getline(stream, line))
-  {
-    std::vector<std::string> fields;
-    std::istringstream row(line);
-    for (std::string field; std::getline(row, field, ',');)
-      fields.push_back(field);
-    if (fields.size() > 5 && fields[1] == "0") // steps ascend: the last one stays
-      errors[fields[0]][fields[2]] = std::stod(fields[5]);
-  }
-  return errors;
+  return curves.at({condition, organ, regression::Axis::step}).at(0).back().mean;
 }
 } // namespace
 
@@ -122,7 +108,7 @@ void make_tracked(ResultDirectory &directory, const TrackRequest &request)
                           "synthetic/observation", "synthetic/observation/images", "synthetic/dataset"},
                  .options = fmt::format("tracker {} all {} uterus border {}", request.tracker, request.all,
                                         request.uterus_border),
-                 .inputs = {"truth.h5", "observations.h5", images},
+                 .inputs = {"truth.h5", "observations.h5", dynamic_images},
                  .outputs = {"tracked.h5", "tracked_points.csv", "contour_errors.csv", "contour_table.txt",
                              tracked_picture, error_figure},
                  .work = [&](Progress &progress) { return work(directory.path(), request, progress); }});
@@ -143,17 +129,21 @@ void print_contour_table(const ResultDirectory &directory)
 
 std::string tracking_cost_table(const ResultDirectory &directory)
 {
-  const auto errors = last_errors(directory.path() / "errors_by_step.csv");
+  const std::string file = "errors_by_step.csv", suffix = "_" + dataset::tracked_outlines;
+  const regression::Curves curves = regression::read_curves(
+      regression::read_text(directory.path() / file, "run 'pelvireg evaluate'"), regression::Axis::step, file);
   std::string rows;
-  for (const auto &[condition, exact] : errors)
-  {
-    const auto tracked = errors.find(condition + "_" + dataset::tracked_outlines);
-    if (tracked == errors.end())
-      continue;
-    for (const std::string &organ : dataset::organ_names)
-      rows += fmt::format("{:<24}{:<10}{:>8.2f}{:>10.2f}{:>12.2f}\n", condition, organ, exact.at(organ),
-                          tracked->second.at(organ), tracked->second.at(organ) - exact.at(organ));
-  }
+  for (const auto &[family, runs] : curves)
+    if (const std::string &condition = family.condition;
+        family.organ == dataset::organ_names.front() &&
+        curves.contains({condition + suffix, family.organ, regression::Axis::step}))
+      for (const std::string &organ : dataset::organ_names)
+      {
+        const double exact = last_error(curves, condition, organ),
+                     tracked = last_error(curves, condition + suffix, organ);
+        rows +=
+            fmt::format("{:<24}{:<10}{:>8.2f}{:>10.2f}{:>12.2f}\n", condition, organ, exact, tracked, tracked - exact);
+      }
   if (rows.empty())
     return "";
   return fmt::format("What tracking costs: mean surface error at the last step, mm\n{:<24}{:<10}{:>8}{:>10}{:>12}\n{}",

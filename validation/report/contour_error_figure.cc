@@ -1,17 +1,19 @@
 #include "validation/report/contour_error_figure.h"
 
 #include "validation/report/line_plot.h"
+#include "validation/report/svg.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
 
 namespace pelvireg::report
 {
 namespace
 {
-constexpr int panel_width = 420, panel_height = 320, key_height = 30; // as line_plot.h draws them
+constexpr double key_height = 30;
 
 std::vector<std::string> trackers_of(const std::vector<runner::ContourErrorRow> &rows)
 {
@@ -41,35 +43,29 @@ LinePlot plot_of(const std::string &organ, const std::vector<runner::ContourErro
   }
   return plot;
 }
-
-/// A drawing inside another one.
-std::string placed(const std::string &svg, int x, int y, int width, int height)
-{
-  const std::string start = "<svg ";
-  return fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" {}", x, y, width, height,
-                     svg.substr(start.size()));
-}
 } // namespace
 
 std::string contour_error_figure(const std::vector<runner::ContourErrorRow> &rows)
 {
   if (rows.empty())
     throw std::invalid_argument("contour_error_figure: there is no error to draw");
-  const std::vector<std::string> trackers = trackers_of(rows);
-  std::string svg = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" "
-                                "font-family=\"sans-serif\">\n{}",
-                                2 * panel_width, 2 * panel_height + key_height,
-                                placed(legend_svg(trackers), 0, 0, 95 * static_cast<int>(trackers.size()), 24));
+  const std::string key = legend_svg(trackers_of(rows));
+  std::string panels;
+  double width = 0, height = 0;
   int n = 0;
   for (const std::string &organ : dataset::organ_names)
   {
     const LinePlot plot = plot_of(organ, rows);
     if (plot.abscissae.empty())
       continue;
-    svg +=
-        placed(line_plot_svg(plot), n % 2 * panel_width, n / 2 * panel_height + key_height, panel_width, panel_height);
+    const std::string panel = line_plot_svg(plot);
+    std::tie(width, height) = size_of(panel);
+    panels += placed(panel, n % 2 * width, n / 2 * height + key_height, width, height);
     ++n;
   }
-  return svg + "</svg>\n";
+  const auto [key_width, its_height] = size_of(key);
+  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:g} {:g}\" "
+                     "font-family=\"sans-serif\">\n{}{}</svg>\n",
+                     2 * width, (n + 1) / 2 * height + key_height, placed(key, 0, 0, key_width, its_height), panels);
 }
 } // namespace pelvireg::report

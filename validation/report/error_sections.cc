@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 namespace pelvireg::report
@@ -17,20 +18,13 @@ namespace
 {
 using dataset::organ_names;
 
-std::string millimetres(const runner::Aggregate &value)
+/// "–" where there is no value.
+std::string millimetres(const std::optional<runner::Aggregate> &value, int digits)
 {
-  return value.n_runs > 1 ? fmt::format("{:.2f} ± {:.3f}", value.mean, value.sd) : fmt::format("{:.2f}", value.mean);
-}
-
-/// A heading and one column an organ; "–" where there is no value.
-std::vector<std::string> row_of(const std::string &heading, const std::vector<std::optional<runner::Aggregate>> &values)
-{
-  std::vector<std::string> row = {heading};
-  for (const auto &value : values)
-    row.push_back(!value              ? "–"
-                  : value->n_runs > 1 ? fmt::format("{:.3f} ± {:.3f}", value->mean, value->sd)
-                                      : fmt::format("{:.3f}", value->mean));
-  return row;
+  if (!value)
+    return "–";
+  return value->n_runs > 1 ? fmt::format("{:.{}f} ± {:.3f}", value->mean, digits, value->sd)
+                           : fmt::format("{:.{}f}", value->mean, digits);
 }
 
 std::vector<std::string> organ_heading(const std::string &first)
@@ -75,8 +69,8 @@ std::vector<std::vector<std::string>> error_rows(const runner::Evaluation &evalu
     const auto worst =
         std::max_element(by_step.begin(), by_step.end(), [](const auto &a, const auto &b) { return a.mean < b.mean; });
     const double nothing = runner::error_by_step(evaluation, runner::unregistered, organ).back().mean;
-    last.push_back(millimetres(by_step.back()));
-    largest.push_back(millimetres(*worst));
+    last.push_back(millimetres(by_step.back(), 2));
+    largest.push_back(millimetres(*worst, 2));
     reduction.push_back(nothing > 0 ? fmt::format("{:.0f} %", 100 * (1 - by_step.back().mean / nothing)) : "–");
   }
   if (condition == runner::unregistered)
@@ -127,8 +121,7 @@ std::string error_bar_sentence(const runner::Evaluation &evaluation, const datas
     return "";
   return "<p>The truth's own error bar is not smaller than the error with all constraints for: <b>" + organs +
          "</b>. There the error is one against the motion of this mesh, not against the exact motion of the "
-         "reference's "
-         "model.</p>\n";
+         "reference's model.</p>\n";
 }
 
 std::string claims_html(const std::vector<runner::ClaimVerdict> &claims)
@@ -154,44 +147,52 @@ std::string aims_html(const std::vector<runner::Aim> &aims)
   return html + "</tbody></table></div>\n";
 }
 
-std::string step_tables_html(const runner::Evaluation &evaluation)
+namespace
+{
+using Values = std::vector<std::optional<runner::Aggregate>>;
+
+/// A row a place of the curves, a column an organ; one table a condition.
+std::string value_tables(const runner::Evaluation &evaluation, const std::string &first,
+                         const std::function<Values(const std::string &, const std::string &)> &curve,
+                         const std::function<std::string(std::size_t)> &label)
 {
   const auto of_condition = [&](const std::string &condition)
   {
-    std::vector<std::vector<runner::Aggregate>> curves;
-    for (const std::string &organ : organ_names)
-      curves.push_back(runner::error_by_step(evaluation, condition, organ));
     std::vector<std::vector<std::string>> rows;
-    for (std::size_t step = 0; step < curves.front().size(); ++step)
+    for (const std::string &organ : organ_names)
     {
-      std::vector<std::optional<runner::Aggregate>> values;
-      for (const auto &curve : curves)
-        values.emplace_back(curve[step]);
-      rows.push_back(row_of(std::to_string(step + 1), values));
+      const Values values = curve(condition, organ);
+      rows.resize(values.size());
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        if (rows[i].empty())
+          rows[i] = {label(i)};
+        rows[i].push_back(millimetres(values[i], 3));
+      }
     }
-    return details("Values, " + condition, table(organ_heading("step (mm)"), rows));
+    return details("Values, " + condition, table(organ_heading(first), rows));
   };
   return by_condition(evaluation, of_condition, "Values, other conditions");
+}
+} // namespace
+
+std::string step_tables_html(const runner::Evaluation &evaluation)
+{
+  const auto curve = [&](const std::string &condition, const std::string &organ)
+  {
+    const auto values = runner::error_by_step(evaluation, condition, organ);
+    return Values(values.begin(), values.end());
+  };
+  return value_tables(evaluation, "step (mm)", curve, [](std::size_t i) { return std::to_string(i + 1); });
 }
 
 std::string slice_tables_html(const runner::Evaluation &evaluation)
 {
-  const auto of_condition = [&](const std::string &condition)
-  {
-    std::vector<std::vector<std::optional<runner::Aggregate>>> curves;
-    for (const std::string &organ : organ_names)
-      curves.push_back(runner::error_by_slice(evaluation, condition, organ));
-    std::vector<std::vector<std::string>> rows;
-    for (std::size_t i = 0; i < curves.front().size(); ++i)
-    {
-      std::vector<std::optional<runner::Aggregate>> values;
-      for (const auto &curve : curves)
-        values.push_back(curve[i]);
-      rows.push_back(row_of(fmt::format("{:+d}", static_cast<int>(i) - evaluation.n_slices_each_side), values));
-    }
-    return details("Values, " + condition, table(organ_heading("slice (mm)"), rows));
-  };
-  return by_condition(evaluation, of_condition, "Values, other conditions");
+  const auto curve = [&](const std::string &condition, const std::string &organ)
+  { return runner::error_by_slice(evaluation, condition, organ); };
+  const auto label = [&](std::size_t i)
+  { return fmt::format("{:+d}", static_cast<int>(i) - evaluation.n_slices_each_side); };
+  return value_tables(evaluation, "slice (mm)", curve, label);
 }
 
 std::string worst_places_html(const runner::Evaluation &evaluation, const std::vector<WorstPlace> &places)
@@ -224,8 +225,7 @@ std::string missed_html(const runner::Evaluation &evaluation)
       rows.push_back(
           {slice.condition, slice.organ, std::to_string(slice.slice_index), fmt::format("{:.1f}", slice.truth_length)});
   return fmt::format("<p>Slices that meet an organ of the truth but not the registered one, over all runs: {}. No "
-                     "distance exists "
-                     "there, they are missing from the curves. Those of the nominal runs:</p>\n",
+                     "distance exists there, they are missing from the curves. Those of the nominal runs:</p>\n",
                      evaluation.missed_slices.size()) +
          table({"Condition", "organ", "slice", "truth's contour (mm)"}, rows);
 }

@@ -3,23 +3,15 @@
 #include "synthetic/dataset/geometry.h"
 #include "validation/report/figures.h"
 #include "validation/report/plane_overlays.h"
+#include "validation/report/svg.h"
 #include "validation/runner/result_files.h"
 
 #include <fmt/format.h>
-
-#include <sstream>
-#include <utility>
 
 namespace pelvireg::report
 {
 namespace
 {
-/// An SVG inside another, at a place of it.
-std::string placed(const std::string &svg, double x, double y, double width, double height)
-{
-  return fmt::format("<svg x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" ", x, y, width, height) + svg.substr(5);
-}
-
 /// The figure above its key, on white. Both begin with "<svg ".
 std::string standing_alone(const std::string &svg, double width, double height, const std::string &key,
                            double key_width)
@@ -31,16 +23,6 @@ std::string standing_alone(const std::string &svg, double width, double height, 
                      width, height + key_height) +
          placed(svg, 0, 0, width, height) + placed(key, (width - key_width) / 2, height, key_width, key_height) +
          "</svg>\n";
-}
-
-/// "560 412" of viewBox="0 0 560 412" as numbers.
-std::pair<double, double> size_of(const std::string &svg)
-{
-  const std::string before = "viewBox=\"0 0 ";
-  std::istringstream text(svg.substr(svg.find(before) + before.size(), 40));
-  double width = 0, height = 0;
-  text >> width >> height;
-  return {width, height};
 }
 } // namespace
 

@@ -67,7 +67,22 @@ dataset::Contour contour_of(const Points &points, const OrganContour &rest, cons
   return contour;
 }
 
-dataset::DynamicFrame frame_of(const TrackedSeries &tracked, std::size_t frame, const dataset::Observations &exact)
+/// Of every organ's control points, in the order of exact.rest.
+std::vector<std::vector<Place>> places_of(const TrackedSeries &tracked, const dataset::Observations &exact)
+{
+  std::vector<std::vector<Place>> places;
+  for (std::size_t organ = 0; organ < exact.rest.outlines.size(); ++organ)
+  {
+    const Points &control = exact.rest.control_points[organ];
+    std::vector<Place> &of_organ = places.emplace_back();
+    for (Eigen::Index i = 0; i < control.rows(); ++i)
+      of_organ.push_back(place_of(control.row(i), exact.rest.outlines[organ].organ, tracked.rest));
+  }
+  return places;
+}
+
+dataset::DynamicFrame frame_of(const TrackedSeries &tracked, std::size_t frame, const dataset::Observations &exact,
+                               const std::vector<std::vector<Place>> &places)
 {
   dataset::DynamicFrame moved;
   const std::vector<TrackedContour> &now = tracked.frames[frame];
@@ -84,7 +99,7 @@ dataset::DynamicFrame frame_of(const TrackedSeries &tracked, std::size_t frame, 
     Eigen::Index kept = 0;
     for (Eigen::Index i = 0; i < control.rows(); ++i)
     {
-      const Place place = place_of(control.row(i), name, tracked.rest);
+      const Place &place = places[organ][static_cast<std::size_t>(i)];
       const TrackedContour &contour = now[place.contour];
       const Eigen::Index next = (place.segment + 1) % contour.points.rows();
       const Eigen::Index nearest = place.share < 0.5 ? place.segment : next;
@@ -115,9 +130,10 @@ dataset::Observations observations_of(const TrackedSeries &tracked, const datase
   observations.dyn_plane = exact.dyn_plane;
   observations.rest = exact.rest;
   const std::size_t step = static_cast<std::size_t>(frames_per_increment);
+  const std::vector<std::vector<Place>> places = places_of(tracked, exact);
   for (std::size_t frame = step; frame < tracked.frames.size(); frame += step)
   {
-    observations.frames.push_back(frame_of(tracked, frame, exact));
+    observations.frames.push_back(frame_of(tracked, frame, exact, places));
     observations.frames.back().increment = static_cast<int>(frame / step);
   }
   return observations;

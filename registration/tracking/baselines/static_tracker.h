@@ -7,6 +7,9 @@ namespace pelvireg::tracking
 {
 class StaticTracker : public OutlineTracker
 {
+public:
+  explicit StaticTracker(const Options &) {}
+
 private:
   void do_start(const Image &first, const std::vector<InitialOutline> &outlines) override;
   TrackedFrame do_update(const Image &frame) override;

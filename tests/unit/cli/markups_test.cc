@@ -1,6 +1,7 @@
 #include "validation/cli/markups.h"
 
 #include "synthetic/dataset/error.h"
+#include "tests/scratch_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,9 +18,6 @@ using testing::HasSubstr;
 class Markups : public testing::Test
 {
 protected:
-  void SetUp() override { file_ = std::filesystem::path(testing::TempDir()) / "pelvireg_curve.mrk.json"; }
-  void TearDown() override { std::filesystem::remove(file_); }
-
   void write(const std::string &text) const { std::ofstream(file_) << text; }
 
   /// A file as Slicer writes it, as far as it matters, with one curve.
@@ -43,7 +41,8 @@ protected:
     return "";
   }
 
-  std::filesystem::path file_;
+  const test::ScratchFolder folder_;
+  const std::filesystem::path file_ = folder_ / "curve.mrk.json";
 };
 } // namespace
 

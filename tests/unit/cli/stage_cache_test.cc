@@ -1,6 +1,7 @@
 // A stage is run again when code, options or the content of its inputs differ, and only then.
 #include "synthetic/dataset/atomic_file.h"
 #include "synthetic/dataset/error.h"
+#include "tests/scratch_folder.h"
 #include "validation/cli/sha256.h"
 #include "validation/cli/stage_cache.h"
 
@@ -28,13 +29,7 @@ std::string content_of(const std::filesystem::path &file)
 class Chain : public ::testing::Test
 {
 protected:
-  Chain()
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "pelvireg-test-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-    write("source.txt", "one");
-  }
-  ~Chain() override { std::filesystem::remove_all(path_); }
+  Chain() { write("source.txt", "one"); }
 
   void write(const std::string &file, const std::string &text) { dataset::write_text_file(path_ / file, text); }
 
@@ -74,7 +69,8 @@ protected:
     return "not refused";
   }
 
-  std::filesystem::path path_;
+  const test::ScratchFolder scratch_;
+  std::filesystem::path path_ = scratch_.path();
   int n_runs_ = 0;
 };
 } // namespace

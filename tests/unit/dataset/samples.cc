@@ -222,20 +222,6 @@ Estimate sample_estimate()
   return estimate;
 }
 
-ScratchFolder::ScratchFolder()
-{
-  std::string name = (std::filesystem::temp_directory_path() / "pelvireg-test-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error("cannot make a folder for the test");
-  path_ = name;
-}
-
-ScratchFolder::~ScratchFolder()
-{
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 std::string bytes_of(const std::filesystem::path &file)
 {
   std::ostringstream out;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <stdexcept>
 
 namespace pelvireg::reference_fe
 {
@@ -44,6 +45,28 @@ TEST(PelvisNewton, ConvergesQuadraticallyAndSaysSoLineByLine)
   std::cout << "from " << residuals[k - 1] << " to " << residuals[k] << " N\n";
   EXPECT_LT(residuals[k - 1], 0.1);
   EXPECT_LT(residuals[k], residuals[k - 1] * residuals[k - 1]);
+}
+
+// The row of the pressure counts MPa as N, so 5e-7 MPa not yet applied is within the tolerance of 1e-6 N: taken for
+// equilibrium, it kept the path at rest for ever.
+TEST(PelvisNewton, LeavesRestFromAPressureBelowTheToleranceOfTheResidual)
+{
+  const dataset::Anatomy anatomy = anatomy::build_anatomy(anatomy::case_text("quick"), "quick");
+  PelvisModel model = build_pelvis_model(anatomy, 1);
+  LoadStepperOptions options;
+  options.start_pressure = 5e-7;
+  ASSERT_LT(options.start_pressure, options.residual_tolerance);
+  int n_lines = 0;
+  options.log = [&n_lines](const std::string &)
+  {
+    if (++n_lines > 200)
+      throw std::runtime_error("the path does not leave rest");
+  };
+  const double target = anatomy.reference.target_displacement;
+  LoadStepper stepper(model, options);
+  const StepEffort effort = stepper.start(target);
+  EXPECT_GE(stepper.displacement(), options.start_displacement * target);
+  EXPECT_EQ(effort.cuts, 0);
 }
 } // namespace
 } // namespace pelvireg::reference_fe

@@ -3,6 +3,7 @@
 
 #include "reference_fe/decks/deck_mesh.h"
 #include "synthetic/dataset/anatomy.h"
+#include "tests/scratch_folder.h"
 
 #include <fmt/format.h>
 
@@ -103,17 +104,12 @@ class ScratchFile
 public:
   ScratchFile(const std::string &extension, const std::string &text) : extension_(extension)
   {
-    std::string folder = (std::filesystem::temp_directory_path() / "pelvireg-deck-XXXXXX").string();
-    folder_ = ::mkdtemp(folder.data());
     std::ofstream(path(), std::ios::binary) << text;
   }
-  ~ScratchFile() { std::filesystem::remove_all(folder_); }
-  ScratchFile(const ScratchFile &) = delete;
-  ScratchFile &operator=(const ScratchFile &) = delete;
   std::filesystem::path path() const { return folder_ / ("results" + extension_); }
 
 private:
-  std::filesystem::path folder_;
+  test::ScratchFolder folder_;
   std::string extension_;
 };
 } // namespace pelvireg::reference_fe

@@ -1,6 +1,7 @@
 #include "validation/report/track_figures.h"
 
 #include "synthetic/dataset/error.h"
+#include "tests/scratch_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +58,8 @@ struct Picture
 
 TEST(TrackFigure, DrawsOutlinesOverTheFramesInTheirPlace)
 {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "pelvireg_track.png";
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = folder / "track.png";
   write_overlay(series(), {{0, {{"bladder", square(), false}}}, {1, {{"bladder", square(), true}}}}, file);
   const Picture picture(file);
   // Columns 5 … 55 and three picture pixels each, twice, with a gap of six.
@@ -75,7 +77,6 @@ TEST(TrackFigure, DrawsOutlinesOverTheFramesInTheirPlace)
     n_white += picture.at(second + (20 - 5) * 3 + 1, y)[0] > 250;
   EXPECT_GT(n_white, 15); // dashed: about half of 60
   EXPECT_LT(n_white, 45);
-  std::filesystem::remove(file);
 }
 
 TEST(TrackFigure, RefusesAFrameThatIsNotThere)

@@ -1,3 +1,4 @@
+#include "tests/scratch_folder.h"
 #include "validation/report/html.h"
 
 #include <gtest/gtest.h>
@@ -21,25 +22,25 @@ TEST(Table, EscapesCellsAndFillsShortRows)
   EXPECT_NE(html.find("<th scope=\"row\">&lt;x&gt;</th><td></td>"), std::string::npos);
 }
 
-std::filesystem::path file_with(const std::string &bytes)
+std::string url_of(const std::string &bytes)
 {
-  const auto file = std::filesystem::path(::testing::TempDir()) / "pelvireg_html_test.png";
-  std::ofstream(file, std::ios::binary) << bytes;
-  return file;
+  const test::ScratchFolder folder;
+  std::ofstream(folder / "picture.png", std::ios::binary) << bytes;
+  return png_data_url(folder / "picture.png");
 }
 
 TEST(PngDataUrl, IsBase64OfTheBytes)
 {
   // RFC 4648: "f", "fo", "foo" end in "==", "=" and nothing.
   const std::string head = "\x89PNG\r\n\x1a\n";
-  EXPECT_EQ(png_data_url(file_with(head + "f")), "data:image/png;base64,iVBORw0KGgpm");
-  EXPECT_EQ(png_data_url(file_with(head + "fo")), "data:image/png;base64,iVBORw0KGgpmbw==");
-  EXPECT_EQ(png_data_url(file_with(head + "foo")), "data:image/png;base64,iVBORw0KGgpmb28=");
+  EXPECT_EQ(url_of(head + "f"), "data:image/png;base64,iVBORw0KGgpm");
+  EXPECT_EQ(url_of(head + "fo"), "data:image/png;base64,iVBORw0KGgpmbw==");
+  EXPECT_EQ(url_of(head + "foo"), "data:image/png;base64,iVBORw0KGgpmb28=");
 }
 
 TEST(PngDataUrl, OfAnythingElseIsEmpty)
 {
-  EXPECT_EQ(png_data_url(file_with("<svg onload=\"x\">")), "");
+  EXPECT_EQ(url_of("<svg onload=\"x\">"), "");
   EXPECT_EQ(png_data_url("/nowhere/at/all.png"), "");
 }
 } // namespace

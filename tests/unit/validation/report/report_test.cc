@@ -1,5 +1,6 @@
 #include "validation/report/report.h"
 
+#include "tests/scratch_folder.h"
 #include "tests/unit/validation/fixtures/sphere_case.h"
 #include "validation/report/summary_page.h"
 #include "validation/report/web_bundle.h"
@@ -148,8 +149,8 @@ TEST(Report, IsWrittenWholeToItsFile)
 {
   // PELVIREG_REPORT_SAMPLE keeps the page, to look at it.
   const char *sample = std::getenv("PELVIREG_REPORT_SAMPLE");
-  const std::filesystem::path file = sample ? std::filesystem::path(sample)
-                                            : std::filesystem::path(::testing::TempDir()) / "pelvireg_report_test.html";
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = sample ? std::filesystem::path(sample) : folder / "report.html";
   const Case spheres;
   const runner::Evaluation evaluation = runner::evaluate(spheres.anatomy, spheres.truth, spheres.estimates);
   const ReportInputs inputs{evaluation, spheres.anatomy, spheres.truth, spheres.estimates, {}, {}, {}};

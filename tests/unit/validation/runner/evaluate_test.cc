@@ -1,6 +1,7 @@
 #include "validation/runner/evaluate.h"
 
 #include "synthetic/dataset/error.h"
+#include "tests/scratch_folder.h"
 #include "tests/unit/validation/fixtures/shapes.h"
 #include "tests/unit/validation/fixtures/sphere_case.h"
 #include "validation/runner/result_files.h"
@@ -193,8 +194,7 @@ std::vector<std::string> results_of(const Evaluation &evaluation)
 
 TEST(EvaluateRuns, ReadFromFilesOneByOneGivesTheSameBytesAsFromMemory)
 {
-  const auto folder = std::filesystem::temp_directory_path() / "pelvireg_test_evaluate_runs";
-  std::filesystem::create_directories(folder);
+  const test::ScratchFolder folder;
   const std::vector<dataset::Estimate> estimates = {several_runs("full"), several_runs("no_boundary_conditions")};
   std::vector<RunSource> sources;
   for (const dataset::Estimate &estimate : estimates)
@@ -207,7 +207,6 @@ TEST(EvaluateRuns, ReadFromFilesOneByOneGivesTheSameBytesAsFromMemory)
     EXPECT_EQ(results_of(evaluate_runs(test::sphere_anatomy(), test::sphere_truth(translation), sources,
                                        {.n_threads = n_threads, .progress = {}})),
               at_once);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(EvaluateRuns, AsksForEveryRunOnceAndHoldsOneAThread)

@@ -2,6 +2,7 @@
 #include "validation/runner/merge.h"
 
 #include "synthetic/dataset/error.h"
+#include "tests/scratch_folder.h"
 #include "tests/unit/validation/fixtures/sphere_case.h"
 #include "validation/runner/part_store.h"
 #include "validation/runner/register.h"
@@ -48,12 +49,9 @@ class Shards : public ::testing::Test
 protected:
   Shards() : estimate_(whole()), nominal_(estimate_.samples.front().surfaces)
   {
-    std::string name = (fs::temp_directory_path() / "pelvireg-test-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
     for (dataset::EstimateSurface &surface : nominal_)
       surface.positions.clear();
   }
-  ~Shards() override { fs::remove_all(folder_); }
 
   dataset::EstimatePart part(int shard, int n) const
   {
@@ -110,7 +108,8 @@ protected:
 
   dataset::Estimate estimate_;
   std::vector<dataset::EstimateSurface> nominal_;
-  fs::path folder_;
+  const test::ScratchFolder scratch_;
+  fs::path folder_ = scratch_.path();
 };
 } // namespace
 

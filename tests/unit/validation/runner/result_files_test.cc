@@ -1,5 +1,6 @@
 #include "validation/runner/result_files.h"
 
+#include "tests/scratch_folder.h"
 #include "tests/unit/validation/fixtures/sphere_case.h"
 #include "validation/runner/aims.h"
 #include "validation/runner/claims.h"
@@ -76,9 +77,8 @@ TEST(ResultFiles, CurvesHoldMeanAndDeviationOverTheRandomisedRuns)
 
 TEST(ResultFiles, AllAreWrittenAndNothingElseStays)
 {
-  const auto directory = std::filesystem::path(::testing::TempDir()) / "pelvireg_result_files_test";
-  std::filesystem::remove_all(directory);
-  std::filesystem::create_directories(directory);
+  const test::ScratchFolder folder;
+  const std::filesystem::path &directory = folder.path();
   write_result_files(judged(), {}, directory);
   std::vector<std::string> names;
   for (const auto &entry : std::filesystem::directory_iterator(directory))
@@ -92,7 +92,6 @@ TEST(ResultFiles, AllAreWrittenAndNothingElseStays)
   text << stream.rdbuf();
   EXPECT_EQ(text.str(), errors_by_step_csv(judged()));
   EXPECT_THROW(write_result_files(judged(), {}, directory / "missing"), std::runtime_error);
-  std::filesystem::remove_all(directory);
 }
 
 TEST(Summary, HoldsTheNumbersOfTheEvaluation)

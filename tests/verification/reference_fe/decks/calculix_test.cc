@@ -1,4 +1,5 @@
 // An unrelated solver moves pieces of the pelvis as the reference does: exported, run with ccx, imported.
+#include "tests/scratch_folder.h"
 #include "tests/verification/reference_fe/decks/deck_case.h"
 
 #include <gtest/gtest.h>
@@ -12,14 +13,8 @@ namespace
 class CalculiX : public ::testing::Test
 {
 protected:
-  CalculiX()
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "pelvireg-ccx-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~CalculiX() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path folder_;
+  const test::ScratchFolder scratch_;
+  std::filesystem::path folder_ = scratch_.path();
 };
 } // namespace
 
