@@ -23,6 +23,7 @@ struct Arguments
   SampleSettings settings;
   int jobs = 1;
   std::string from = "exact";
+  observation::ImageOptions images; ///< with from = "images"
 };
 
 bool from_images(const Arguments &given)
@@ -71,10 +72,6 @@ void run_chain(const std::string &case_name, const std::filesystem::path &out, c
       requests.push_back(request);
   const std::string text = anatomy::case_text(case_name);
   const std::string label = case_label(case_name);
-  if (const auto images = out / dynamic_images; from_images(given) && !std::filesystem::exists(images))
-    throw InputError(fmt::format("run --from images: '{}' does not exist, a dynamic series of the image plane with one "
-                                 "frame at rest and a whole number an increment is needed; put it there",
-                                 images.string()));
   ResultDirectory directory(out, command_line, ResultDirectory::Missing::create);
 
   make_anatomy(directory, label, text);
@@ -82,7 +79,9 @@ void run_chain(const std::string &case_name, const std::filesystem::path &out, c
   make_observations(directory);
   if (from_images(given))
   {
-    make_image_files(directory, {.n_threads = given.jobs});
+    observation::ImageOptions images = given.images;
+    images.n_threads = given.jobs;
+    make_image_files(directory, images);
     make_tracked(directory, {.all = true});
   }
   for (const RegisterRequest &request : requests)
@@ -100,6 +99,8 @@ void run_chain(const std::string &case_name, const std::filesystem::path &out, c
 
 void run_cases(const Arguments &given, const std::string &command_line)
 {
+  if (const auto violations = given.images.violations(); !violations.empty())
+    throw InputError(violations.front());
   const std::vector<std::string> cases = expanded_cases(given.cases);
   for (const std::string &name : cases)
     anatomy::case_text(name); // a wrong name is told before the first hour of work
@@ -129,16 +130,23 @@ void add_run_command(CLI::App &program, Invocation &invocation)
                       "Result directory, made when missing; out/CASE when not given. For several cases the folder of "
                       "their directories");
   add_condition_option(*command, arguments->conditions);
+  CLI::Option *from = command
+                          ->add_option("--from", arguments->from,
+                                       "exact: outlines are intersections with the truth. images: the truth is also "
+                                       "rendered as MR images and the organs are tracked in them; the registration is "
+                                       "driven by both, for comparison")
+                          ->check(CLI::IsMember({"exact", "images"}))
+                          ->capture_default_str();
   command
-      ->add_option("--from", arguments->from,
-                   "exact: outlines are intersections with the truth. images: the organs are also tracked in "
-                   "images/dyn.nrrd of the result directory; the registration is driven by both, for comparison")
-      ->check(CLI::IsMember({"exact", "images"}))
+      ->add_option("--snr", arguments->images.snr,
+                   "With --from images: urine's signal over the noise in the dynamic images; 0: no noise")
+      ->needs(from)
       ->capture_default_str();
   add_sample_options(*command, arguments->settings);
   add_jobs_option(*command, arguments->jobs);
   command->footer("Examples:\n  pelvireg run quick\n  pelvireg run t005 --out out/t005 --jobs 2\n"
                   "  pelvireg run t005 --conditions all\n"
+                  "  pelvireg run t005 --from images --snr 10\n"
                   "  pelvireg run all --conditions all --samples 100\n"
                   "  pelvireg run t005 --samples 100 --perturb modulus,surface,outline,plane\nA stage whose inputs "
                   "have not changed is not run again.");

@@ -10,7 +10,7 @@ namespace pelvireg::cli
 {
 /// What the stage draws.
 inline const std::string tracked_picture = "pictures/tracked_frames.png";
-inline const std::string dynamic_images = "images/dyn.nrrd"; ///< read, by no stage made
+inline const std::string dynamic_images = "images/dyn.nrrd"; ///< made by the images stage
 
 struct TrackRequest
 {

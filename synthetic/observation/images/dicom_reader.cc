@@ -141,10 +141,10 @@ void check_kind(const gdcm::Image &image, const gdcm::DataSet &set, const std::s
                     where, kind, mr_image_storage));
   if (image.GetPixelFormat().GetSamplesPerPixel() != 1 ||
       image.GetPhotometricInterpretation() != gdcm::PhotometricInterpretation::MONOCHROME2)
-    throw InputError(fmt::format(
-        "{} is {} with {} value(s) a pixel, but grey images (MONOCHROME2) are needed; give the "
-        "images as the scanner wrote them.",
-        where, image.GetPhotometricInterpretation().GetString(), image.GetPixelFormat().GetSamplesPerPixel()));
+    throw InputError(
+        fmt::format("{} is {} with {} value(s) a pixel, but grey images (MONOCHROME2) are needed; give the "
+                    "images as the scanner wrote them.",
+                    where, text_at(set, 0x0028, 0x0004), image.GetPixelFormat().GetSamplesPerPixel()));
   if (image.GetNumberOfDimensions() > 2 && image.GetDimension(2) != 1)
     throw InputError(
         fmt::format("{} holds {} frames, but one a file is needed; split it.", where, image.GetDimension(2)));

@@ -155,6 +155,22 @@ TEST_F(Dicom, ThatIsWrongIsRefused)
   EXPECT_THAT(with([](const Path &file) { change(file, 0x0028, 0x0004, VR::CS, "MONOCHROME1"); }), HasSubstr("grey"));
 }
 
+TEST_F(Dicom, InColourIsRefused)
+{
+  using gdcm::VR;
+  const std::filesystem::path file = dyn_ / "0002.dcm";
+  const std::string byte("\x08\x00", 2), high_bit("\x07\x00", 2), three("\x03\x00", 2), interleaved(2, '\0');
+  change(file, 0x0028, 0x0002, VR::US, three);
+  change(file, 0x0028, 0x0004, VR::CS, "RGB");
+  change(file, 0x0028, 0x0006, VR::US, interleaved);
+  change(file, 0x0028, 0x0100, VR::US, byte);
+  change(file, 0x0028, 0x0101, VR::US, byte);
+  change(file, 0x0028, 0x0102, VR::US, high_bit);
+  const auto n_pixels = static_cast<std::size_t>(series_.geometry.rows * series_.geometry.columns);
+  change(file, 0x7FE0, 0x0010, VR::OB, std::string(3 * n_pixels, 'x'));
+  EXPECT_THAT(refusal(), HasSubstr("RGB with 3 value(s) a pixel, but grey images"));
+}
+
 TEST_F(Dicom, OfAnotherSizeIsRefused)
 {
   dataset::ImageSeries small = series_;
