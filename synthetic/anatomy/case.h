@@ -28,7 +28,7 @@ std::string case_text(const std::string &name_or_path);
 /// the text as it is when it names no base. Throws InputError for a text that is not TOML and for an unknown base.
 std::string with_base(const std::string &text, const std::string &case_name);
 
-/// The case with one value replaced or added: `key` is a dotted path ("reference.shell_size", "cavity.bladder"),
+/// The case with one value replaced or added: `key` is a dotted path ("reference.cell_size.vagina", "cavity.bladder"),
 /// `value` TOML ("6.6", "{mode = 'open'}"). Comments are lost. Throws InputError for a text or value that is not TOML.
 std::string with_value(const std::string &text, const std::string &case_name, const std::string &key,
                        const std::string &value);

@@ -207,8 +207,10 @@ void read_materials(TableReader table, Parameters &parameters)
 
 void read_reference(TableReader table, Parameters &parameters)
 {
-  parameters.reference_size = table.number("shell_size", {2, 20, false});
-  parameters.uterus_size = table.number("uterus_size", {3, 30, false});
+  TableReader sizes = table.table("cell_size");
+  for (const std::string part : {"bladder", "vagina", "uterus", "rectum", "pelvic_floor"})
+    parameters.cell_size[part] = sizes.number(part, {2, 30, false});
+  sizes.finish();
   TableReader materials = table.table("material_of");
   for (const std::string part :
        {"bladder", "vagina", "uterus", "rectum", "pelvic_floor", "urethra", "retropubic", "hiatus"})

@@ -90,7 +90,7 @@ struct Parameters
   double slice_pitch = 6;
   int n_slices_each_side = 7;
 
-  double reference_size = 0, uterus_size = 0; ///< mm
+  std::map<std::string, double> cell_size; ///< mm, of the truth's mesh by part
   std::map<std::string, int> registration_nodes;
   std::map<std::string, double> youngs_modulus;
   double poisson_ratio = 0.45, density = 1.05e-9;

@@ -179,8 +179,8 @@ dataset::ReferenceSolid make_solid(const std::string &name, const std::string &m
   if (!(least > 0))
     throw ComputationError(
         fmt::format("The quadratic tetrahedra of the {} are inverted (least relative Jacobian {:.3g}); "
-                    "lower reference.uterus_size.",
-                    name, least));
+                    "lower reference.cell_size.{}.",
+                    name, least, name));
   return solid;
 }
 
@@ -190,15 +190,16 @@ dataset::ReferenceModel make_reference(const Parameters &p)
   model.materials = p.materials;
   model.target_displacement = p.target_displacement;
   model.n_increments = p.n_increments;
-  const double size = p.reference_size;
+  const auto size = [&](const std::string &part) { return p.cell_size.at(part); };
   const auto material = [&](const std::string &part) { return p.material_of.at(part); };
   model.shells.push_back(
-      make_shell("bladder", material("bladder"), bladder_charts(p.bladder, size), p.bladder.wall, -0.5));
+      make_shell("bladder", material("bladder"), bladder_charts(p.bladder, size("bladder")), p.bladder.wall, -0.5));
   model.shells.push_back(
-      make_shell("vagina", material("vagina"), vagina_charts(p.vagina, p.uterus, size), p.vagina.wall, -0.5));
-  model.shells.push_back(make_shell("rectum", material("rectum"), rectum_charts(p.rectum, size), p.rectum.wall, -0.5));
-  model.shells.push_back(make_shell("pelvic_floor", material("pelvic_floor"), floor_charts(p.pelvic_floor, size),
-                                    p.pelvic_floor.thickness, 0));
+      make_shell("vagina", material("vagina"), vagina_charts(p.vagina, p.uterus, size("vagina")), p.vagina.wall, -0.5));
+  model.shells.push_back(
+      make_shell("rectum", material("rectum"), rectum_charts(p.rectum, size("rectum")), p.rectum.wall, -0.5));
+  model.shells.push_back(make_shell("pelvic_floor", material("pelvic_floor"),
+                                    floor_charts(p.pelvic_floor, size("pelvic_floor")), p.pelvic_floor.thickness, 0));
   for (dataset::ReferenceShell &shell : model.shells)
   {
     const std::vector<Integers> loops = boundary_loops(shell.cells);
@@ -225,7 +226,7 @@ dataset::ReferenceModel make_reference(const Parameters &p)
                            [&](const Integers &a, const Integers &b) { return mean_distance(a) < mean_distance(b); })});
   }
   model.solids.push_back(
-      make_solid("uterus", material("uterus"), uterus_charts(p.uterus, p.vagina, p.uterus_size), p.uterus_size));
+      make_solid("uterus", material("uterus"), uterus_charts(p.uterus, p.vagina, size("uterus")), size("uterus")));
   model.contact_pairs = {{"bladder", "vagina"},     {"bladder", "uterus"},       {"vagina", "rectum"},
                          {"uterus", "rectum"},      {"bladder", "pelvic_floor"}, {"vagina", "pelvic_floor"},
                          {"rectum", "pelvic_floor"}};

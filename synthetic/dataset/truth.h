@@ -59,7 +59,7 @@ struct BalanceRecord
 /// The truth's own error bar: what its mesh leaves open, by a study of the same case on three meshes.
 struct DiscretisationError
 {
-  Eigen::Vector3d cell_sizes = Eigen::Vector3d::Zero(); ///< mm, of the shells: coarse, that of the truth, fine
+  Eigen::Vector3d cell_sizes = Eigen::Vector3d::Zero(); ///< mm, mean of the shells: coarse, middle, that of the truth
   Integers n_cells;                                     ///< 3, quadrilaterals of all shells
   double observed_order = 0, used_order = 0, safety_factor = 0;
   /// Grid convergence index of the displacement over material points of the organs' outer surfaces, mm, one an

@@ -8,6 +8,7 @@
 #include "validation/cli/version.h"
 #include "validation/metrics/grid_convergence.h"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,6 +30,23 @@ int n_shell_cells(const dataset::Anatomy &anatomy)
   for (const dataset::ReferenceShell &shell : anatomy.reference.shells)
     n += static_cast<int>(shell.cells.rows());
   return n;
+}
+
+/// mm^2, of the shells' outer faces at rest.
+double shell_area(const dataset::Truth &truth)
+{
+  double area = 0;
+  for (const auto &[name, rest, displacements] : truth.surfaces)
+    for (Eigen::Index t = 0; t < rest.triangles.rows(); ++t)
+    {
+      const bool is_cap = rest.region[t] == static_cast<std::int32_t>(dataset::SurfaceRegion::cap);
+      if (name == "uterus" || is_cap)
+        continue;
+      const Eigen::RowVector3d a = rest.points.row(rest.triangles(t, 0)), b = rest.points.row(rest.triangles(t, 1)),
+                               c = rest.points.row(rest.triangles(t, 2));
+      area += (b - a).cross(c - a).norm() / 2;
+    }
+  return area;
 }
 
 /// Points of one kind of all organs and increments on top of each other: away from bars, or near them.
@@ -93,15 +111,15 @@ void summarise(const Selection &selected, const metrics::GridConvergence &found,
 
 void print_table(const DiscretisationError &error, const metrics::GridConvergence &found)
 {
-  fmt::print(
-      "\ncells of the shells: {}; size {:.2f}, {:.2f}, {:.2f} mm\n"
-      "difference of displacements (root mean square over organs and increments, away from bars): coarse to "
-      "middle {:.4f} mm, middle to fine {:.4f} mm\n"
-      "observed order {:.2f}, used {:.2f}, safety factor {:.2f}\n"
-      "grid convergence index of the middle mesh, mm ({:.0f} % of the points lie within {:g} mm of a bar's end)\n",
-      fmt::join(error.n_cells, ", "), error.cell_sizes[0], error.cell_sizes[1], error.cell_sizes[2],
-      found.coarse_difference, found.fine_difference, error.observed_order, error.used_order, error.safety_factor,
-      100 * error.share_near_bars, error.bar_distance);
+  fmt::print("\ncells of the shells: {}; size {:.2f}, {:.2f}, {:.2f} mm\n"
+             "difference of displacements (root mean square over organs and increments, away from bars): coarse to "
+             "middle {:.4f} mm, middle to fine {:.4f} mm\n"
+             "observed order {:.2f}, used {:.2f}, safety factor {:.2f}\n"
+             "grid convergence index of the fine mesh, the truth's, mm ({:.0f} % of the points lie within {:g} mm of a "
+             "bar's end)\n",
+             fmt::join(error.n_cells, ", "), error.cell_sizes[0], error.cell_sizes[1], error.cell_sizes[2],
+             found.coarse_difference, found.fine_difference, error.observed_order, error.used_order,
+             error.safety_factor, 100 * error.share_near_bars, error.bar_distance);
   fmt::print("{:>9}{:>9}{:>9}{:>11}", "increment", "mean", "max", "near bars");
   for (const std::string &organ : organ_names)
     fmt::print("{:>17}", organ);
@@ -118,12 +136,12 @@ void print_table(const DiscretisationError &error, const metrics::GridConvergenc
 DiscretisationError compare(const std::vector<dataset::Truth> &truths, const Eigen::Vector3d &sizes,
                             const dataset::Integers &n_cells)
 {
-  const std::vector<dataset::Truth> middle_first = {truths[1], truths[0], truths[2]};
-  const StudyPoints points = study_points(middle_first, bar_distance);
+  const std::vector<dataset::Truth> fine_first = {truths[2], truths[1], truths[0]};
+  const StudyPoints points = study_points(fine_first, bar_distance);
   std::vector<StudyField> fields;
   for (const dataset::Truth &truth : truths)
     fields.emplace_back(truth, points);
-  const std::size_t n_increments = truths[1].increments.size();
+  const std::size_t n_increments = truths[2].increments.size();
   const auto ratio = [&](int coarse, int fine)
   { return std::sqrt(static_cast<double>(n_cells[fine]) / n_cells[coarse]); };
 
@@ -147,7 +165,7 @@ DiscretisationError compare(const std::vector<dataset::Truth> &truths, const Eig
   {
     double &largest = error.max_near_bars[static_cast<Eigen::Index>(near.increment[static_cast<std::size_t>(i)])];
     const double difference = (near.series.middle.row(i) - near.series.fine.row(i)).norm();
-    largest = std::max(largest, found.safety_factor * difference * growth / (growth - 1));
+    largest = std::max(largest, found.safety_factor * difference / (growth - 1));
   }
   const auto n_near = static_cast<double>(near.organ.size()), n_away = static_cast<double>(away.organ.size());
   error.share_near_bars = n_near / (n_near + n_away);
@@ -166,19 +184,22 @@ void run_mesh_study(const StudySettings &settings, double ratio)
   std::vector<dataset::Truth> truths;
   for (int mesh = 0; mesh < 3; ++mesh)
   {
-    const double factor = std::pow(ratio, 1 - mesh);
+    const double factor = std::pow(ratio, 2 - mesh);
     std::string changed = text;
-    for (const char *key : {"reference.shell_size", "reference.uterus_size"})
+    for (const char *part : {"bladder", "vagina", "uterus", "rectum", "pelvic_floor"})
+    {
+      const std::string key = fmt::format("reference.cell_size.{}", part);
       changed = anatomy::with_value(changed, label, key,
                                     fmt::format("{:.6f}", factor * anatomy::number_in_case(text, label, key)));
-    sizes[mesh] = factor * anatomy::number_in_case(text, label, "reference.shell_size");
+    }
     const std::filesystem::path folder = settings.folder / meshes[static_cast<std::size_t>(mesh)];
-    fmt::print("{} mesh, cells of {:.2f} mm\n", meshes[static_cast<std::size_t>(mesh)], sizes[mesh]);
+    fmt::print("{} mesh, cells {:.2f} times as long as the case's\n", meshes[static_cast<std::size_t>(mesh)], factor);
     ResultDirectory directory(folder, settings.command_line, ResultDirectory::Missing::create);
     make_anatomy(directory, label, changed);
     make_truth(directory, settings.jobs);
     n_cells[mesh] = n_shell_cells(dataset::load_anatomy(folder / "anatomy.h5"));
     truths.push_back(dataset::load_truth(folder / "truth.h5"));
+    sizes[mesh] = std::sqrt(shell_area(truths.back()) / n_cells[mesh]);
   }
   DiscretisationError error = compare(truths, sizes, n_cells);
   error.case_sha256 = case_digest(text, label);

@@ -47,9 +47,10 @@ void add_study_commands(CLI::App &program, Invocation &invocation)
       add_study(program, invocation, mesh, "mesh-study",
                 "Solve the reference on three meshes: observed order and error bar of the truth",
                 [](const StudySettings &settings, const Arguments &given) { run_mesh_study(settings, given.ratio); });
-  command->add_option("--ratio", mesh->ratio, "Cell size of each mesh over that of the next finer one");
+  command->add_option("--ratio", mesh->ratio,
+                      "Cell size of each mesh over that of the next finer one; the finest is the case's own");
   command->footer("Examples:\n  pelvireg mesh-study t005 --jobs 2\n  pelvireg mesh-study quick --ratio 1.3\n"
-                  "The fine mesh takes several times as long as the case itself.");
+                  "The fine mesh is the case's own.");
 
   const auto cavities = std::make_shared<Arguments>();
   command = add_study(program, invocation, cavities, "cavity-study",

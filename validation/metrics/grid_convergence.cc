@@ -65,7 +65,7 @@ GridConvergence grid_convergence(const GridSeries &series)
   result.safety_factor = result.observed_order >= least_order ? trusted_factor : cautious_factor;
   const double growth = std::pow(series.fine_ratio, result.used_order);
   for (Eigen::Index i = 0; i < difference.rows(); ++i)
-    result.index.push_back(result.safety_factor * difference.row(i).norm() * growth / (growth - 1));
+    result.index.push_back(result.safety_factor * difference.row(i).norm() / (growth - 1));
   return result;
 }
 } // namespace pelvireg::metrics

@@ -24,15 +24,16 @@ std::string error_bar_html(const dataset::DiscretisationError &error)
     largest.push_back(fmt::format("{:.3f}", error.max_by_organ(last, static_cast<Eigen::Index>(organ))));
   }
   return table(heading, {mean, largest}) +
-         fmt::format("<p>Grid convergence index from meshes of {}, {} and {} quadrilaterals (the truth's is the middle "
-                     "one), observed order {:.2f}, safety factor {:.2f}, over the organs' outer surfaces farther than "
-                     "{:g} mm from the end of a bar ({:.0f} % of the points are nearer; there at most {:.2f} mm). Over "
-                     "all increments: mean at most {:.3f} mm, largest {:.3f} mm. {}</p>\n",
-                     error.n_cells[0], error.n_cells[1], error.n_cells[2], error.observed_order, error.safety_factor,
-                     error.bar_distance, 100 * error.share_near_bars, error.max_near_bars.maxCoeff(),
-                     error.mean.maxCoeff(), error.max.maxCoeff(),
-                     error.same_solver ? "Made by the solver that made this truth."
-                                       : "Made by another revision of the solver (" + escape(error.revision) + ").");
+         fmt::format(
+             "<p>Grid convergence index from meshes of {}, {} and {} quadrilaterals (the truth's is the "
+             "finest), observed order {:.2f}, safety factor {:.2f}, over the organs' outer surfaces farther than "
+             "{:g} mm from the end of a bar ({:.0f} % of the points are nearer; there at most {:.2f} mm). Over "
+             "all increments: mean at most {:.3f} mm, largest {:.3f} mm. {}</p>\n",
+             error.n_cells[0], error.n_cells[1], error.n_cells[2], error.observed_order, error.safety_factor,
+             error.bar_distance, 100 * error.share_near_bars, error.max_near_bars.maxCoeff(), error.mean.maxCoeff(),
+             error.max.maxCoeff(),
+             error.same_solver ? "Made by the solver that made this truth."
+                               : "Made by another revision of the solver (" + escape(error.revision) + ").");
 }
 
 std::string balance_html(const dataset::Truth &truth)

@@ -82,9 +82,10 @@ Eigen::Matrix3d membrane_stiffness(const dataset::Anatomy &anatomy, const std::s
 
 TEST(Anatomy, PullsAtTheSamePlacesOnEveryMesh)
 {
-  const std::string text = anatomy::case_text("t005");
-  const dataset::Anatomy coarse =
-      anatomy::build_anatomy(anatomy::with_value(text, "t005", "reference.shell_size", "9.3"), "t005");
+  std::string text = anatomy::case_text("t005");
+  for (const char *part : {"bladder", "vagina", "rectum", "pelvic_floor"})
+    text = anatomy::with_value(text, "t005", std::string("reference.cell_size.") + part, "9.3");
+  const dataset::Anatomy coarse = anatomy::build_anatomy(text, "t005");
   for (const std::string &support : supports)
     for (const std::string side : {"_left", "_right"})
     {

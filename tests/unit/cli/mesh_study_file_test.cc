@@ -55,8 +55,8 @@ TEST(CaseDigest, KnowsWhatTheReferenceSeesAndNothingElse)
   EXPECT_FALSE(changed("registration.time_step", "0.01"));
   EXPECT_FALSE(changed("description", "'other words'"));
   EXPECT_FALSE(changed("plane.slice_pitch", "5.0"));
-  EXPECT_FALSE(changed("reference.shell_size", "15.0")); // what it is
-  EXPECT_TRUE(changed("reference.shell_size", "14.0"));
+  EXPECT_FALSE(changed("reference.cell_size.vagina", "15.0")); // what it is
+  EXPECT_TRUE(changed("reference.cell_size.vagina", "14.0"));
   EXPECT_TRUE(changed("plane.tilt", "2.0"));
   EXPECT_TRUE(changed("cavity.bladder", "{mode = 'open'}"));
   EXPECT_TRUE(changed("materials.fascia.c10", "0.006"));

@@ -10,7 +10,7 @@ namespace pelvireg::metrics
 {
 namespace
 {
-/// f + c h^p at k points, c different at each; cell sizes coarse, 1 and fine.
+/// f + c h^p at k points, c different at each; cell sizes coarse_ratio fine_ratio, fine_ratio and 1.
 GridSeries series_of_order(double order, double coarse_ratio, double fine_ratio)
 {
   const int k = 20;
@@ -20,8 +20,8 @@ GridSeries series_of_order(double order, double coarse_ratio, double fine_ratio)
     exact.data()[i] = std::sin(static_cast<double>(i));
     error.data()[i] = 0.01 * std::cos(2 * static_cast<double>(i));
   }
-  return {exact + std::pow(coarse_ratio, order) * error, exact + error, exact + std::pow(fine_ratio, -order) * error,
-          coarse_ratio, fine_ratio};
+  return {exact + std::pow(coarse_ratio * fine_ratio, order) * error, exact + std::pow(fine_ratio, order) * error,
+          exact + error, coarse_ratio, fine_ratio};
 }
 
 TEST(GridConvergence, FindsTheOrderAndAnErrorBarOfFiveQuartersOfTheTrueError)
