@@ -100,9 +100,10 @@ struct Options
   double sliding_compliance = 0.02;
   double attachment_compliance = 0; ///< mm/N, per attachment row (added to Attachment::compliance)
   bool use_contact = true;          ///< contact phi of Model::contact_pairs
-  /// Coulomb, between organs. No coefficient between pelvic organs is published; 0.05 to 0.1 is the range that
-  /// sensitivity studies take, and the paper holds organs back by friction. 0: organs slide freely.
-  double friction_coefficient = 0.1;
+  /// Coulomb, between organs; 0: organs slide freely. It stands for the connective tissue that keeps organs from
+  /// sliding along each other (paper, section 5.1). No coefficient is published. Of 0, 0.1, 0.3, 0.6, 1 and 2 the
+  /// outlines are followed best with 0.6 (docs/study.md).
+  double friction_coefficient = 0.6;
   double contact_pixel = 1; ///< mm between the rays that see overlaps, >= 0.05
   double contact_cell = 8;  ///< mm, edge of the cells in which overlap is gathered into one contact
   /// mm: surfaces this near are watched, so that what touches stays in contact. About as much as facets lie inside the

@@ -221,7 +221,7 @@ TEST(ContactStep, PassesForcesThroughAStack)
 TEST(ContactStep, ConvergesToTheSameConfigurationForEveryTimeStep)
 {
   const Model model = two_held_organs();
-  for (const double friction : {0.0, 0.1, 0.5, 1.0})
+  for (const double friction : {0.0, 0.1, 0.6, 1.0})
   {
     std::vector<Points> first;
     double worst = 0;
@@ -261,7 +261,7 @@ TEST(ContactStep, DragsAnOrganAlongByFriction)
 {
   const Model model = two_held_organs();
   std::vector<double> dragged;
-  for (const double friction : {0.0, 0.1, 0.5})
+  for (const double friction : {0.0, 0.1, 0.6})
   {
     Options options;
     options.friction_coefficient = friction;
