@@ -207,24 +207,24 @@ struct PhaseTimes
   double contact = 0;   ///< detection, for the step's summary and the next step's rows
 };
 
-/// A phase of a step, for files and tables.
+/// A phase of a step, for files and tables: what it is called there, and its time.
 struct StepPhase
 {
-  const char *name;
-  const char *content; ///< what is done in it, a few words
+  const char *name;  ///< in files
+  const char *title; ///< for people
   double PhaseTimes::*time;
 };
 
 /// All of PhaseTimes, in the order in which a step runs them.
 inline constexpr std::array<StepPhase, 9> step_phases = {{
-    {"match", "matching of the outlines, rows of the constraints", &PhaseTimes::match},
-    {"assemble", "rotations, elastic forces, matrices", &PhaseTimes::assemble},
-    {"factorise", "Cholesky factors", &PhaseTimes::factorise},
-    {"free_motion", "motion without constraints", &PhaseTimes::free_motion},
-    {"compliance", "compliance W of the constraints", &PhaseTimes::compliance},
+    {"match", "matching", &PhaseTimes::match},
+    {"assemble", "assembly", &PhaseTimes::assemble},
+    {"factorise", "factorisation", &PhaseTimes::factorise},
+    {"free_motion", "free motion", &PhaseTimes::free_motion},
+    {"compliance", "compliance W", &PhaseTimes::compliance},
     {"solve", "constraint forces", &PhaseTimes::solve},
-    {"correct", "correction of the positions", &PhaseTimes::correct},
-    {"summarise", "residuals of the step, on a fresh matching", &PhaseTimes::summarise},
+    {"correct", "correction", &PhaseTimes::correct},
+    {"summarise", "residuals", &PhaseTimes::summarise},
     {"contact", "contact detection", &PhaseTimes::contact},
 }};
 

@@ -53,9 +53,9 @@ void print_phases(const std::vector<runner::StepTiming> &timings)
     return;
   fmt::print("\ntime by phase of a registration step, nominal run of {}, mean\n", shown->condition);
   for (const runner::PhaseTiming &phase : shown->phases)
-    fmt::print("  {:<48}{:>8.2f} ms{:>6.1f} %\n", runner::phase_content(phase.name), phase.mean_ms,
+    fmt::print("  {:<32}{:>8.2f} ms{:>6.1f} %\n", runner::phase_title(phase.name), phase.mean_ms,
                shown->mean_ms > 0 ? 100 * phase.mean_ms / shown->mean_ms : 0);
-  fmt::print("  {:<48}{:>8.2f} ms\n", "whole step", shown->mean_ms);
+  fmt::print("  {:<32}{:>8.2f} ms\n", "whole step", shown->mean_ms);
 }
 
 /// "all" stands for every built-in case.

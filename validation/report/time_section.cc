@@ -81,7 +81,7 @@ std::string phase_table(const runner::StepTiming &timing)
                     has_bar ? std::optional(share) : std::nullopt});
   };
   for (const runner::PhaseTiming &phase : timing.phases)
-    add(runner::phase_content(phase.name), phase.mean_ms, true);
+    add(runner::phase_title(phase.name), phase.mean_ms, true);
   add("whole step", timing.mean_ms, false);
   return bar_table({timing.condition, "mean (ms)", "share (%)"}, rows);
 }
@@ -102,7 +102,8 @@ std::string phases_html(const std::vector<runner::StepTiming> &timings)
     return html;
   html += "<p>Mean over the steps of the nominal run, in the order of a step: wall time on the machine that played it, "
           "beside whatever else it did; with <code>--jobs</code> above 1 that can be other runs.</p>\n";
-  const auto panels = [](const std::string &tables) { return "<div class=\"panels wide\">\n" + tables + "</div>\n"; };
+  const auto panels = [](const std::string &tables)
+  { return "<div class=\"panels wide phases\">\n" + tables + "</div>\n"; };
   return html + (seen.empty() ? "" : panels(seen)) +
          (closed.empty() ? "" : details("Phases in other conditions", panels(closed)));
 }

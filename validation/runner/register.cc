@@ -160,12 +160,12 @@ std::vector<int> runs_of_shard(int samples, const Shard &shard)
   return numbers;
 }
 
-std::string phase_content(const std::string &phase)
+std::string phase_title(const std::string &phase)
 {
   const auto &phases = registration::step_phases;
   const auto known = std::find_if(phases.begin(), phases.end(),
                                   [&](const registration::StepPhase &other) { return other.name == phase; });
-  return known == phases.end() ? phase : known->content;
+  return known == phases.end() ? phase : known->title;
 }
 
 StepTiming timing_of(const std::string &label, const dataset::StepTimes &times)

@@ -47,8 +47,8 @@ struct PhaseTiming
   double mean_ms = 0;
 };
 
-/// What is done in a phase, in a few words; `phase` itself when it is not one of registration::step_phases.
-std::string phase_content(const std::string &phase);
+/// Title of the phase of this name; the name itself when it is not one of registration::step_phases.
+std::string phase_title(const std::string &phase);
 
 /// How long the steps of the nominal run took on this machine; not part of the estimate, which is the same on every
 /// run.

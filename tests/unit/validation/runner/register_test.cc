@@ -361,8 +361,8 @@ TEST(StepTiming, IsTheMedianOfTheStepsAndTheMeanOfEveryPhase)
   EXPECT_EQ(timing.phases[0].name, "match");
   EXPECT_EQ(timing.phases[0].mean_ms, 1.5);
   EXPECT_EQ(timing.phases[1].mean_ms, 1);
-  EXPECT_EQ(phase_content("solve"), "constraint forces");
-  EXPECT_EQ(phase_content("a later program's"), "a later program's");
+  EXPECT_EQ(phase_title("solve"), "constraint forces");
+  EXPECT_EQ(phase_title("a later program's"), "a later program's");
 }
 
 TEST(RunRegistration, RefusesAnUnknownConditionAndNamesTheKnownOnes)
