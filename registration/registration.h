@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -120,7 +121,7 @@ struct Options
   /// half as large again as at rest, allocates. A larger one does, once.
   int reserved_control_points = 128;
   int reserved_contacts = 64;
-  Mutation mutation = {};         ///< for tests of the regression gate alone
+  Mutation mutation = {}; ///< for tests of the regression gate alone
 
   /// All problems as sentences; empty when the options are usable.
   std::vector<std::string> violations() const;
@@ -192,7 +193,8 @@ struct Equilibrium
   StepSummary last_step;
 };
 
-/// Wall time of the last step by phase, ms. Kept apart from StepSummary, which is the same on every run.
+/// Wall time of the last step by phase, ms; 0 for phases that a step which failed did not end. Kept apart from
+/// StepSummary, which is the same on every run.
 struct PhaseTimes
 {
   double match = 0;    ///< matching, attachment rows
@@ -205,6 +207,27 @@ struct PhaseTimes
   double summarise = 0; ///< residuals on a fresh matching
   double contact = 0;   ///< detection, for the step's summary and the next step's rows
 };
+
+/// A phase of a step, for files and tables: what it is called there, and its time.
+struct StepPhase
+{
+  const char *name;  ///< in files
+  const char *title; ///< for people
+  double PhaseTimes::*time;
+};
+
+/// All of PhaseTimes, in the order in which a step runs them.
+inline constexpr std::array<StepPhase, 9> step_phases = {{
+    {"match", "matching", &PhaseTimes::match},
+    {"assemble", "assembly", &PhaseTimes::assemble},
+    {"factorise", "factorisation", &PhaseTimes::factorise},
+    {"free_motion", "free motion", &PhaseTimes::free_motion},
+    {"compliance", "compliance W", &PhaseTimes::compliance},
+    {"solve", "constraint forces", &PhaseTimes::solve},
+    {"correct", "correction", &PhaseTimes::correct},
+    {"summarise", "residuals", &PhaseTimes::summarise},
+    {"contact", "contact detection", &PhaseTimes::contact},
+}};
 
 /// Size of the prepared system, over the bodies that take part.
 struct SystemSize

@@ -53,6 +53,25 @@ Perturbation read_perturbation(const GroupReader &group)
   return perturbation;
 }
 
+void write_times(GroupWriter &group, const StepTimes &times)
+{
+  group.numbers("nominal_step_ms", times.step_ms);
+  GroupWriter phases = group.group("nominal_phase_ms");
+  phases.texts("names", times.phases);
+  for (std::size_t k = 0; k < times.phases.size(); ++k)
+    phases.numbers(times.phases[k], times.phase_ms[k]);
+}
+
+StepTimes read_times(const GroupReader &group)
+{
+  const auto step_ms = group.array<Eigen::VectorXd>("nominal_step_ms");
+  const GroupReader phases = group.group("nominal_phase_ms");
+  StepTimes times{{step_ms.begin(), step_ms.end()}, phases.texts("names"), {}};
+  for (const std::string &name : times.phases)
+    times.phase_ms.push_back(phases.numbers(name, step_ms.size()));
+  return times;
+}
+
 void write_part(GroupWriter group, const EstimatePart &part)
 {
   group.integer("samples", part.samples);
@@ -61,19 +80,18 @@ void write_part(GroupWriter group, const EstimatePart &part)
   group.text("anatomy_sha256", part.anatomy_sha256);
   group.text("observations_sha256", part.observations_sha256);
   group.text("program_sha256", part.program_sha256);
-  group.numbers("nominal_step_ms", part.nominal_step_ms);
+  write_times(group, part.nominal_times);
 }
 
 EstimatePart read_part(const GroupReader &group)
 {
-  const auto step_ms = group.array<Eigen::VectorXd>("nominal_step_ms");
   return {.samples = group.integer("samples"),
           .shard = group.integer("shard"),
           .n_shards = group.integer("n_shards"),
           .anatomy_sha256 = group.text("anatomy_sha256"),
           .observations_sha256 = group.text("observations_sha256"),
           .program_sha256 = group.text("program_sha256"),
-          .nominal_step_ms = {step_ms.begin(), step_ms.end()}};
+          .nominal_times = read_times(group)};
 }
 
 void write_rest_surfaces(GroupWriter group, const std::vector<EstimateSurface> &surfaces)

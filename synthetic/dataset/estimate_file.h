@@ -12,6 +12,14 @@
 
 namespace pelvireg::dataset
 {
+/// Wall time of the steps of one run, ms. Not the same from run to run, so it is in parts alone and in no estimate.
+struct StepTimes
+{
+  std::vector<double> step_ms;
+  std::vector<std::string> phases;           ///< names of what a step consists of, in the order of a step
+  std::vector<std::vector<double>> phase_ms; ///< of every phase, as many as step_ms
+};
+
 /// What a part of an estimate says beside its runs: which of how many they are, and what they were made from. A part is
 /// a file of its own format, so that nobody takes it for the whole.
 struct EstimatePart
@@ -19,8 +27,8 @@ struct EstimatePart
   std::int32_t samples = 0;             ///< randomised runs of the whole estimate
   std::int32_t shard = 1, n_shards = 1; ///< the part holds the runs k with k mod n_shards = shard - 1
   std::string anatomy_sha256, observations_sha256;
-  std::string program_sha256;          ///< over the sources behind the runs and the compiler
-  std::vector<double> nominal_step_ms; ///< wall time of the nominal run's steps; empty when it is not in the part
+  std::string program_sha256; ///< over the sources behind the runs and the compiler
+  StepTimes nominal_times;    ///< of the nominal run; empty when it is not in the part
 };
 
 /// An estimate being written. The bytes depend on what was added alone, not on when and by whom.

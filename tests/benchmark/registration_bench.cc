@@ -10,6 +10,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -57,15 +58,7 @@ double timed_step(Registration &registration, const Observation &observation, St
   std::exit(1);
 }
 
-/// Contact's share of a step and its number of constraints, in a registration that knows contact.
-template <class Times> double contact_time(const Times &times)
-{
-  if constexpr (requires { times.contact; })
-    return times.contact;
-  else
-    return 0;
-}
-
+/// Contact constraints of a step, in a registration that knows contact.
 template <class Summary> int n_contacts(const Summary &summary)
 {
   if constexpr (requires { summary.n_contacts; })
@@ -80,25 +73,23 @@ class PhaseMedians
 public:
   void add(const PhaseTimes &t, double step)
   {
-    const double phases[] = {t.match,      contact_time(t), t.assemble, t.factorise, t.free_motion,
-                             t.compliance, t.solve,         t.correct,  t.summarise, step};
-    for (std::size_t k = 0; k < std::size(phases); ++k)
-      samples_[k].push_back(phases[k]);
+    for (std::size_t k = 0; k < step_phases.size(); ++k)
+      phases_[k].push_back(t.*step_phases[k].time);
+    steps_.push_back(step);
   }
   void report(::benchmark::State &state) const
   {
-    for (std::size_t k = 0; k < std::size(names); ++k)
-      state.counters[std::string(names[k]) + "_ms"] = median(samples_[k]);
-    const std::vector<double> &steps = samples_[std::size(names) - 1];
-    state.counters["steps_per_s"] = 1000 / median(steps);
-    state.counters["step_p05_ms"] = quantile(steps, 0.05);
-    state.counters["step_p95_ms"] = quantile(steps, 0.95);
+    for (std::size_t k = 0; k < step_phases.size(); ++k)
+      state.counters[std::string(step_phases[k].name) + "_ms"] = median(phases_[k]);
+    state.counters["step_ms"] = median(steps_);
+    state.counters["steps_per_s"] = 1000 / median(steps_);
+    state.counters["step_p05_ms"] = quantile(steps_, 0.05);
+    state.counters["step_p95_ms"] = quantile(steps_, 0.95);
   }
 
 private:
-  static constexpr const char *names[] = {"match",      "contact", "assemble", "factorise", "free_motion",
-                                          "compliance", "solve",   "correct",  "summarise", "step"};
-  std::vector<double> samples_[std::size(names)];
+  std::array<std::vector<double>, step_phases.size()> phases_;
+  std::vector<double> steps_;
 };
 
 void report_size(::benchmark::State &state, const Registration &registration, const StepSummary &summary)

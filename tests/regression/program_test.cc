@@ -68,6 +68,7 @@ TEST_F(Program, GivesTheSameBytesForOneAndTwoThreadsAndSkipsWhatIsDone)
   ASSERT_EQ(one.status, 0) << one.err;
   EXPECT_THAT(one.out, HasSubstr("vagina"));
   EXPECT_THAT(one.out, HasSubstr("report: one/report.html"));
+  EXPECT_THAT(one.out, HasSubstr("time by phase of a registration step, nominal run of full, mean\n  matching"));
   const Outcome two = call("run quick --out two --jobs 2");
   ASSERT_EQ(two.status, 0) << two.err;
 
@@ -179,9 +180,9 @@ TEST_F(Program, TakesTheMotionThatAnotherProgramGaveItsDeckAsTruth)
 
 TEST_F(Program, HasHelpWithExamplesForEveryCommand)
 {
-  for (const char *command : {"", "run", "anatomy", "reference", "observe", "register", "merge", "evaluate", "report",
-                              "export", "import", "mesh-study", "cavity-study", "compare", "baseline",
-                              "baseline propose", "baseline accept"})
+  for (const char *command :
+       {"", "run", "anatomy", "reference", "observe", "register", "merge", "evaluate", "report", "export", "import",
+        "mesh-study", "cavity-study", "compare", "baseline", "baseline propose", "baseline accept"})
   {
     const Outcome outcome = call(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;

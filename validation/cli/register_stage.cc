@@ -3,6 +3,7 @@
 #include "synthetic/dataset/error.h"
 #include "synthetic/dataset/estimate_file.h"
 #include "validation/cli/sha256.h"
+#include "validation/cli/timing_notes.h"
 #include "validation/cli/version.h"
 #include "validation/runner/merge.h"
 #include "validation/runner/part_store.h"
@@ -54,7 +55,7 @@ dataset::EstimatePart origin_of(ResultDirectory &directory, const dataset::Pertu
           .anatomy_sha256 = digests.at("anatomy.h5"),
           .observations_sha256 = digests.at(outline_file(perturbation)),
           .program_sha256 = sha256_of_text(program),
-          .nominal_step_ms = {}};
+          .nominal_times = {}};
 }
 
 std::filesystem::path parts_folder(const ResultDirectory &directory, const std::string &label)
@@ -89,8 +90,8 @@ void fill(const runner::PartStore &store, const runner::RegistrationRuns &runs, 
   try
   {
     runner::play_runs(runs, missing, options,
-                      [&](const dataset::EstimateSample &run, const std::vector<double> &step_ms)
-                      { store.save(run, step_ms); });
+                      [&](const dataset::EstimateSample &run, const dataset::StepTimes &times)
+                      { store.save(run, times); });
   }
   catch (const InputError &)
   {
@@ -99,15 +100,9 @@ void fill(const runner::PartStore &store, const runner::RegistrationRuns &runs, 
   }
 }
 
-Notes to_notes(const std::vector<double> &nominal_step_ms)
+Notes to_notes(const dataset::StepTimes &nominal_times)
 {
-  if (nominal_step_ms.empty())
-    return {};
-  const runner::StepTiming timing = runner::timing_of("", nominal_step_ms);
-  return {{"n_steps", timing.n_steps},
-          {"median_ms", timing.median_ms},
-          {"p95_ms", timing.p95_ms},
-          {"max_ms", timing.max_ms}};
+  return nominal_times.step_ms.empty() ? Notes{} : notes_of(runner::timing_of("", nominal_times));
 }
 
 /// The same stage whether its runs are played here or come as shards: equal keys, equal bytes.
@@ -231,7 +226,7 @@ void make_estimate(ResultDirectory &directory, const RegisterRequest &request, i
         store_of(directory, runs, origin_of(directory, request.perturbation, request.samples, {}));
     fill(store, runs, numbers, jobs, progress);
     store.assemble(numbers, directory.path() / ("estimate-" + label_of(request) + ".h5"));
-    return to_notes(store.nominal_step_ms());
+    return to_notes(store.nominal_times());
   };
   try
   {
@@ -260,7 +255,7 @@ void make_shard(ResultDirectory &directory, const RegisterRequest &request, cons
   const runner::PartStore store = store_of(directory, runs, origin);
   fill(store, runs, numbers, jobs, progress);
   if (shard.index == 1)
-    origin.nominal_step_ms = store.nominal_step_ms();
+    origin.nominal_times = store.nominal_times();
   store.assemble(numbers, file, &origin);
   store.remove(numbers);
   progress.finish("done");
@@ -288,7 +283,7 @@ void merge_estimates(ResultDirectory &directory, std::vector<std::filesystem::pa
     const auto work = [&](Progress &) -> Notes
     {
       runner::merge_shards(shards, directory.path() / ("estimate-" + label + ".h5"));
-      return to_notes(shards.origin.nominal_step_ms);
+      return to_notes(shards.origin.nominal_times);
     };
     directory.run(
         stage_of({shards.description.condition, shards.description.perturbation, shards.origin.samples}, work));

@@ -44,6 +44,20 @@ void print_times(const Manifest &manifest)
   fmt::print("  {:<32}{:>8.1f} s\n", "total", total);
 }
 
+/// Of the first condition, `full` when it was registered; the report shows all.
+void print_phases(const std::vector<runner::StepTiming> &timings)
+{
+  const auto shown = std::find_if(timings.begin(), timings.end(),
+                                  [](const runner::StepTiming &timing) { return !timing.phases.empty(); });
+  if (shown == timings.end())
+    return;
+  fmt::print("\ntime by phase of a registration step, nominal run of {}, mean\n", shown->condition);
+  for (const runner::PhaseTiming &phase : shown->phases)
+    fmt::print("  {:<32}{:>8.2f} ms{:>6.1f} %\n", runner::phase_title(phase.name), phase.mean_ms,
+               shown->mean_ms > 0 ? 100 * phase.mean_ms / shown->mean_ms : 0);
+  fmt::print("  {:<32}{:>8.2f} ms\n", "whole step", shown->mean_ms);
+}
+
 /// "all" stands for every built-in case.
 std::vector<std::string> expanded_cases(const std::vector<std::string> &given)
 {
@@ -94,6 +108,7 @@ void run_chain(const std::string &case_name, const std::filesystem::path &out, c
   if (from_images(given))
     print_contour_table(directory);
   print_times(directory.manifest());
+  print_phases(recorded_timings(directory));
   fmt::print("\nreport: {}\n", (directory.path() / "report.html").string());
 }
 

@@ -9,6 +9,7 @@
 #include "validation/cli/self_generated_stage.h"
 #include "validation/cli/sha256.h"
 #include "validation/cli/studies.h"
+#include "validation/cli/timing_notes.h"
 #include "validation/runner/condition_table.h"
 #include "validation/runner/error_table.h"
 #include "validation/runner/result_files.h"
@@ -42,12 +43,9 @@ std::vector<runner::StepTiming> recorded_timings(const ResultDirectory &director
   for (const std::string &label : estimate_labels())
   {
     const StageRecord *maker = directory.manifest().maker_of("estimate-" + label + ".h5");
-    if (maker && maker->notes.contains("median_ms"))
-      timings.push_back({.condition = label,
-                         .n_steps = static_cast<int>(maker->notes.at("n_steps")),
-                         .median_ms = maker->notes.at("median_ms"),
-                         .p95_ms = maker->notes.at("p95_ms"),
-                         .max_ms = maker->notes.at("max_ms")});
+    if (maker)
+      if (const auto timing = timing_in(maker->notes, label))
+        timings.push_back(*timing);
   }
   return timings;
 }
@@ -156,9 +154,8 @@ void make_errors(ResultDirectory &directory, Judge &judge)
   const std::vector<runner::StepTiming> timings = recorded_timings(directory);
   std::string options;
   for (const runner::StepTiming &timing : timings)
-    // summary.json and the table print them
-    options += fmt::format("{} {} {} {} {}\n", timing.condition, timing.n_steps, timing.median_ms, timing.p95_ms,
-                           timing.max_ms);
+    for (const auto &[name, value] : notes_of(timing)) // summary.json and the table print them
+      options += fmt::format("{} {} {}\n", timing.condition, name, value);
   directory.run(
       {.name = "evaluate",
        .code = {"validation/metrics", "validation/runner", "synthetic/dataset"},

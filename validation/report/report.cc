@@ -8,6 +8,7 @@
 #include "validation/report/report_data.h"
 #include "validation/report/report_text.h"
 #include "validation/report/run_sections.h"
+#include "validation/report/time_section.h"
 #include "validation/report/truth_text.h"
 #include "validation/report/web_bundle.h"
 #include "validation/runner/result_files.h"
@@ -107,7 +108,7 @@ std::string further_sections(const Contents &contents)
   html += section("motion", "What moved", motion_html(evaluation));
   html += section("truth", "How exact the truth is", truth_quality_html(inputs.truth));
   html += section("runs", "What the registration says of itself", quality_html(evaluation, inputs.timings));
-  html += section("time", "Time", timing_html(inputs.stages, inputs.timings));
+  html += section("time", "Time", time_html(inputs.stages, inputs.timings));
   return html;
 }
 

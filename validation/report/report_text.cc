@@ -65,6 +65,12 @@ std::string definitions_of_runs()
   html +=
       definition("In-plane residual", "Mean distance in the image plane that the accepted control points still have to "
                                       "their triangles after each position's last step, measured on a fresh matching.");
+  html += definition("Phases of a step",
+                     "Matching of the outlines, with the rows of all constraints. Assembly of rotations, forces and "
+                     "matrices. Factorisation (Cholesky). Free motion: what the organs would do without constraints. "
+                     "Compliance W of the constraints. Constraint forces: the solve for them. Correction of the "
+                     "positions by them. Residuals, on a fresh matching. Contact detection: what this step leaves is "
+                     "what the next one starts from.");
   html +=
       definition("Off-plane", "Component of the truth's displacement along the DYN plane's normal, absolute value.");
   html +=

@@ -107,39 +107,6 @@ std::string quality_html(const runner::Evaluation &evaluation, const std::vector
                               rows);
 }
 
-/// Seconds of each stage with a bar, milliseconds of a registration step.
-std::string timing_html(const std::vector<StageTime> &stages, const std::vector<runner::StepTiming> &timings)
-{
-  double longest = 0, total = 0;
-  for (const StageTime &stage : stages)
-  {
-    longest = std::max(longest, stage.seconds);
-    total += stage.seconds;
-  }
-  std::string html;
-  if (longest > 0)
-  {
-    html = "<div class=\"scroll\"><table class=\"bars\"><thead><tr><th scope=\"col\">Stage</th><th "
-           "scope=\"col\">seconds</th><th scope=\"col\"></th></tr></thead><tbody>\n";
-    for (const StageTime &stage : stages)
-      html += fmt::format("<tr><th scope=\"row\">{}</th><td>{:.1f}</td><td><svg viewBox=\"0 0 100 6\" "
-                          "preserveAspectRatio=\"none\" aria-hidden=\"true\"><rect width=\"{:.2f}\" height=\"6\"/>"
-                          "</svg></td></tr>\n",
-                          escape(stage.name), stage.seconds, 100 * stage.seconds / longest);
-    html += fmt::format("<tr><th scope=\"row\">all</th><td>{:.1f}</td><td></td></tr>\n</tbody></table></div>\n", total);
-  }
-  std::vector<std::vector<std::string>> rows;
-  for (const runner::StepTiming &timing : timings)
-    rows.push_back({timing.condition, std::to_string(timing.n_steps), fmt::format("{:.1f}", timing.median_ms),
-                    fmt::format("{:.1f}", timing.p95_ms), fmt::format("{:.1f}", timing.max_ms),
-                    timing.median_ms > 0 ? fmt::format("{:.0f}", 1000 / timing.median_ms) : "–"});
-  if (rows.empty())
-    return html + "<p>The registration's steps were not timed.</p>\n";
-  return html + table({"One step of the registration, nominal run", "steps", "median (ms)", "95th percentile (ms)",
-                       "longest (ms)", "steps a second"},
-                      rows);
-}
-
 std::string provenance_html(const std::vector<ProvenanceEntry> &entries, const std::vector<std::string> &commands)
 {
   std::string html;

@@ -1,4 +1,4 @@
-// What the page says of the runs: motion, quality, time, provenance.
+// What the page says of the runs: motion, quality, provenance.
 #pragma once
 
 #include "validation/report/report.h"
@@ -16,9 +16,6 @@ std::string motion_html(const runner::Evaluation &evaluation);
 
 /// What the registration says of itself: the worst of the runs of each condition.
 std::string quality_html(const runner::Evaluation &evaluation, const std::vector<runner::StepTiming> &timings);
-
-/// Seconds of each stage, milliseconds of a registration step.
-std::string timing_html(const std::vector<StageTime> &stages, const std::vector<runner::StepTiming> &timings);
 
 /// The commands that make the result again, and what made it.
 std::string provenance_html(const std::vector<ProvenanceEntry> &entries, const std::vector<std::string> &commands);

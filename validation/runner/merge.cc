@@ -82,7 +82,7 @@ ShardSet read_shards(const std::vector<std::filesystem::path> &files)
                                    shard.part().shard, set.origin.n_shards, place.string(), file.string()));
     place = file;
     if (shard.part().shard == 1)
-      set.origin.nominal_step_ms = shard.part().nominal_step_ms;
+      set.origin.nominal_times = shard.part().nominal_times;
   }
   for (std::size_t i = 0; i < set.files.size(); ++i)
     if (set.files[i].empty())

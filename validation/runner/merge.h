@@ -13,7 +13,7 @@ namespace pelvireg::runner
 struct ShardSet
 {
   dataset::Estimate description;            ///< without samples
-  dataset::EstimatePart origin;             ///< with the nominal run's step times
+  dataset::EstimatePart origin;             ///< with the times of the nominal run's steps
   std::vector<std::filesystem::path> files; ///< shard 1 … n
 };
 

@@ -39,11 +39,11 @@ bool PartStore::has(int run) const
   }
 }
 
-void PartStore::save(const dataset::EstimateSample &run, const std::vector<double> &step_ms) const
+void PartStore::save(const dataset::EstimateSample &run, const dataset::StepTimes &times) const
 {
   dataset::EstimatePart part = origin_;
   if (run.sample == 0)
-    part.nominal_step_ms = step_ms;
+    part.nominal_times = times;
   dataset::EstimateWriter writer(file_of(run.sample), description_, rest_surfaces_, &part);
   writer.add(run);
   writer.finish();
@@ -54,9 +54,9 @@ dataset::EstimateSample PartStore::load(int run) const
   return EstimateReader(file_of(run), EstimateReader::Kind::part).sample(run);
 }
 
-std::vector<double> PartStore::nominal_step_ms() const
+dataset::StepTimes PartStore::nominal_times() const
 {
-  return has(0) ? EstimateReader(file_of(0), EstimateReader::Kind::part).part().nominal_step_ms : std::vector<double>{};
+  return has(0) ? EstimateReader(file_of(0), EstimateReader::Kind::part).part().nominal_times : dataset::StepTimes{};
 }
 
 void PartStore::assemble(const std::vector<int> &runs, const std::filesystem::path &file,

@@ -19,11 +19,11 @@ public:
             std::vector<dataset::EstimateSurface> rest_surfaces, dataset::EstimatePart origin);
 
   bool has(int run) const;
-  void save(const dataset::EstimateSample &run, const std::vector<double> &step_ms) const;
+  void save(const dataset::EstimateSample &run, const dataset::StepTimes &times) const;
   /// Throws InputError when it is not there.
   dataset::EstimateSample load(int run) const;
-  /// Wall time of the nominal run's steps, ms; empty when it is not there.
-  std::vector<double> nominal_step_ms() const;
+  /// Of the nominal run; empty when it is not there.
+  dataset::StepTimes nominal_times() const;
 
   /// All of `runs` as one file: a part of the estimate when `part` is given, else the whole.
   void assemble(const std::vector<int> &runs, const std::filesystem::path &file,

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstddef>
 #include <mutex>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -123,6 +124,28 @@ std::vector<std::pair<std::string, std::string>> names_of(const std::vector<regi
   return names;
 }
 
+double mean_of(const std::vector<double> &values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Times of no step yet, with a place for every phase.
+dataset::StepTimes no_times()
+{
+  dataset::StepTimes times;
+  for (const registration::StepPhase &phase : registration::step_phases)
+    times.phases.emplace_back(phase.name);
+  times.phase_ms.resize(times.phases.size());
+  return times;
+}
+
+void add_step(double step_ms, const registration::PhaseTimes &phases, dataset::StepTimes &times)
+{
+  times.step_ms.push_back(step_ms);
+  for (std::size_t k = 0; k < times.phase_ms.size(); ++k)
+    times.phase_ms[k].push_back(phases.*registration::step_phases[k].time);
+}
+
 const dataset::RegistrationBody &organ_body(const dataset::RegistrationModel &model, const std::string &organ)
 {
   return model.bodies[static_cast<std::size_t>(body_index(model, organ))];
@@ -137,12 +160,24 @@ std::vector<int> runs_of_shard(int samples, const Shard &shard)
   return numbers;
 }
 
-StepTiming timing_of(const std::string &label, std::vector<double> step_ms)
+std::string phase_title(const std::string &phase)
 {
-  std::sort(step_ms.begin(), step_ms.end());
+  const auto &phases = registration::step_phases;
+  const auto known = std::find_if(phases.begin(), phases.end(),
+                                  [&](const registration::StepPhase &other) { return other.name == phase; });
+  return known == phases.end() ? phase : known->title;
+}
+
+StepTiming timing_of(const std::string &label, const dataset::StepTimes &times)
+{
+  std::vector<double> sorted = times.step_ms;
+  std::sort(sorted.begin(), sorted.end());
   const auto at = [&](double fraction)
-  { return step_ms[static_cast<std::size_t>(fraction * static_cast<double>(step_ms.size() - 1))]; };
-  return {label, static_cast<int>(step_ms.size()), at(0.5), at(0.95), step_ms.back()};
+  { return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1))]; };
+  StepTiming timing{label, static_cast<int>(sorted.size()), at(0.5), at(0.95), sorted.back(), mean_of(times.step_ms)};
+  for (std::size_t k = 0; k < times.phases.size(); ++k)
+    timing.phases.push_back({times.phases[k], mean_of(times.phase_ms[k])});
+  return timing;
 }
 
 RegistrationRuns::RegistrationRuns(const dataset::Anatomy &anatomy, const dataset::Observations &observations,
@@ -175,9 +210,10 @@ dataset::RegistrationModel RegistrationRuns::model_of_run(int sample) const
   return model_of(condition_, perturbed(model_, description_.perturbation, sample));
 }
 
-dataset::EstimateSample RegistrationRuns::play(int sample, std::vector<double> &step_ms,
+dataset::EstimateSample RegistrationRuns::play(int sample, dataset::StepTimes &times,
                                                const std::function<void()> &step_done) const
 {
+  times = no_times();
   const dataset::RegistrationModel model = model_of_run(sample);
   const dataset::Observations observations = perturbed(observations_, description_.perturbation, sample);
   dataset::EstimateSample run;
@@ -206,7 +242,8 @@ dataset::EstimateSample RegistrationRuns::play(int sample, std::vector<double> &
     {
       const auto start = std::chrono::steady_clock::now();
       const registration::StepSummary summary = registration.update(observation);
-      step_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+      const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+      add_step(elapsed.count(), registration.phase_times(), times);
       run.steps.push_back(convert(summary, registration.penetrations()));
       for (std::size_t organ = 0; organ < organ_names.size(); ++organ)
         run.surfaces[organ].positions.push_back(
@@ -237,11 +274,11 @@ void play_runs(const RegistrationRuns &runs, const std::vector<int> &numbers, co
   for_each_index(n_runs, options.n_threads,
                  [&](int i)
                  {
-                   std::vector<double> step_ms;
+                   dataset::StepTimes times;
                    const dataset::EstimateSample run =
-                       runs.play(numbers[static_cast<std::size_t>(i)], step_ms, step_done);
+                       runs.play(numbers[static_cast<std::size_t>(i)], times, step_done);
                    const std::lock_guard lock(done_mutex);
-                   done(run, step_ms);
+                   done(run, times);
                  });
 }
 
@@ -257,11 +294,11 @@ dataset::Estimate run_registration(const dataset::Anatomy &anatomy, const datase
   dataset::Estimate estimate = runs.description();
   estimate.samples.resize(static_cast<std::size_t>(options.samples) + 1);
   play_runs(runs, runs_of_shard(options.samples, {}), options,
-            [&](const dataset::EstimateSample &run, const std::vector<double> &step_ms)
+            [&](const dataset::EstimateSample &run, const dataset::StepTimes &times)
             {
               estimate.samples[static_cast<std::size_t>(run.sample)] = run;
               if (timing && run.sample == 0)
-                *timing = timing_of(estimate.label(), step_ms);
+                *timing = timing_of(estimate.label(), times);
             });
   return estimate;
 }

@@ -4,6 +4,7 @@
 #include "registration/registration.h"
 #include "synthetic/dataset/anatomy.h"
 #include "synthetic/dataset/estimate.h"
+#include "synthetic/dataset/estimate_file.h"
 #include "synthetic/dataset/observations.h"
 #include "validation/runner/conditions.h"
 
@@ -39,6 +40,16 @@ struct RunnerOptions
   std::function<void(double, const std::string &)> progress;
 };
 
+/// Mean wall time of one of registration::step_phases.
+struct PhaseTiming
+{
+  std::string name;
+  double mean_ms = 0;
+};
+
+/// Title of the phase of this name; the name itself when it is not one of registration::step_phases.
+std::string phase_title(const std::string &phase);
+
 /// How long the steps of the nominal run took on this machine; not part of the estimate, which is the same on every
 /// run.
 struct StepTiming
@@ -46,10 +57,12 @@ struct StepTiming
   std::string condition; ///< label of the estimate
   int n_steps = 0;
   double median_ms = 0, p95_ms = 0, max_ms = 0;
+  double mean_ms = 0;                   ///< the phases' means add up to it, but for what lies between them
+  std::vector<PhaseTiming> phases = {}; ///< in the order of a step; empty when they were not recorded
 };
 
-/// step_ms: wall time of each step, at least one.
-StepTiming timing_of(const std::string &label, std::vector<double> step_ms);
+/// `times` of at least one step.
+StepTiming timing_of(const std::string &label, const dataset::StepTimes &times);
 
 /// The runs of one condition. Each depends on its number alone, so they can be played in any order, anywhere.
 ///
@@ -73,9 +86,9 @@ public:
   const std::vector<dataset::EstimateSurface> &rest_surfaces() const { return rest_surfaces_; }
   int n_steps() const { return static_cast<int>(observations_.frames.size()) * steps_per_increment_; }
 
-  /// Play run `sample`, 0 the nominal one. From several threads at once if need be. step_ms receives the wall time of
+  /// Play run `sample`, 0 the nominal one. From several threads at once if need be. `times` receives the wall time of
   /// each step, step_done is called after each. Throws InputError for a model that the registration refuses.
-  dataset::EstimateSample play(int sample, std::vector<double> &step_ms, const std::function<void()> &step_done) const;
+  dataset::EstimateSample play(int sample, dataset::StepTimes &times, const std::function<void()> &step_done) const;
 
 private:
   dataset::RegistrationModel model_of_run(int sample) const;
@@ -89,8 +102,8 @@ private:
   std::vector<dataset::EstimateSurface> rest_surfaces_;
 };
 
-/// A run that has ended, with the wall time of its steps, ms.
-using RunDone = std::function<void(const dataset::EstimateSample &, const std::vector<double> &)>;
+/// A run that has ended, with the wall time of its steps.
+using RunDone = std::function<void(const dataset::EstimateSample &, const dataset::StepTimes &)>;
 
 /// Play the runs `numbers` on options.n_threads threads. `done` receives each when it ends, never two at once, in any
 /// order. When a run fails no further one is begun.

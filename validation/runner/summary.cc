@@ -224,6 +224,24 @@ json missed(const Evaluation &evaluation)
                     {"truth_contour_mm", slice.truth_length}});
   return list;
 }
+json timing_list(const std::vector<StepTiming> &timings)
+{
+  json list = json::array();
+  for (const StepTiming &timing : timings)
+  {
+    json phases = json::array();
+    for (const PhaseTiming &phase : timing.phases)
+      phases.push_back({{"phase", phase.name}, {"mean_ms", phase.mean_ms}});
+    list.push_back({{"condition", timing.condition},
+                    {"n_steps", timing.n_steps},
+                    {"median_ms", timing.median_ms},
+                    {"p95_ms", timing.p95_ms},
+                    {"max_ms", timing.max_ms},
+                    {"mean_ms", timing.mean_ms},
+                    {"phases", phases}});
+  }
+  return list;
+}
 } // namespace
 
 std::string summary_json(const Evaluation &evaluation, const std::vector<StepTiming> &timings)
@@ -265,13 +283,7 @@ std::string summary_json(const Evaluation &evaluation, const std::vector<StepTim
   summary["runs"] = quality(evaluation);
   summary["penetrations"] = penetrations(evaluation);
   summary["missed_slices"] = missed(evaluation);
-  summary["timing"] = json::array();
-  for (const StepTiming &timing : timings)
-    summary["timing"].push_back({{"condition", timing.condition},
-                                 {"n_steps", timing.n_steps},
-                                 {"median_ms", timing.median_ms},
-                                 {"p95_ms", timing.p95_ms},
-                                 {"max_ms", timing.max_ms}});
+  summary["timing"] = timing_list(timings);
   return summary.dump(2) + "\n";
 }
 } // namespace pelvireg::runner

@@ -79,6 +79,18 @@ test('the verdicts and the error table say what summary.json says', async () => 
   });
 });
 
+test('the phases of a step are those of summary.json', async () => {
+  await withPage(report, {}, async ({ page }) => {
+    const tables = await page.$$eval('#time .panels table', (all) => all.map((table) => [...table.rows].map((row) => [...row.cells].slice(0, 3).map((cell) => cell.textContent))));
+    assert.deepEqual(tables.map((rows) => rows[0][0]), summary.timing.map((timing) => timing.condition));
+    for (const [k, { phases, mean_ms }] of summary.timing.entries()) {
+      assert.ok(phases.length > 0 && phases.reduce((sum, phase) => sum + phase.mean_ms, 0) <= mean_ms);
+      const shown = [...phases.map((phase) => phase.mean_ms), mean_ms].map((mean) => [mean.toFixed(2), (100 * (mean / mean_ms)).toFixed(1)]);
+      assert.deepEqual(tables[k].slice(1).map((row) => row.slice(1)), shown);
+    }
+  });
+});
+
 test('the mouse reads values off the charts that equal the CSV', async () => {
   await withPage(report, {}, async ({ page }) => {
     for (const [chart, rows, key] of [['step', byStep, 'step'], ['slice', bySlice, 'slice_index']])

@@ -26,7 +26,7 @@ const EstimatePart part{.samples = 12,
                         .anatomy_sha256 = "aa",
                         .observations_sha256 = "bb",
                         .program_sha256 = "cc",
-                        .nominal_step_ms = {1.5, 2.5}};
+                        .nominal_times = {{1.5, 2.5}, {"match", "solve"}, {{1, 2}, {0.25, 0.5}}}};
 
 template <typename Call> std::string refusal_of(const Call &call)
 {
@@ -99,11 +99,26 @@ TEST(EstimatePartFile, ComesBackExactlyAndIsNotTakenForAWhole)
   EXPECT_EQ(reader.part().shard, 2);
   EXPECT_EQ(reader.part().n_shards, 5);
   EXPECT_EQ(reader.part().anatomy_sha256 + reader.part().observations_sha256 + reader.part().program_sha256, "aabbcc");
-  EXPECT_EQ(reader.part().nominal_step_ms, (std::vector<double>{1.5, 2.5}));
+  EXPECT_EQ(reader.part().nominal_times.step_ms, part.nominal_times.step_ms);
+  EXPECT_EQ(reader.part().nominal_times.phases, part.nominal_times.phases);
+  EXPECT_EQ(reader.part().nominal_times.phase_ms, part.nominal_times.phase_ms);
   EXPECT_EQ(reader.sample(7).surfaces[0].positions, estimate.samples[1].surfaces[0].positions);
   EXPECT_THAT(refusal_of([&] { load_estimate(folder / "part.h5"); }), HasSubstr("'pelvireg estimate part'"));
   save(estimate, folder / "whole.h5");
   EXPECT_THAT(refusal_of([&] { EstimateReader(folder / "whole.h5", EstimateReader::Kind::part); }),
               HasSubstr("must be 'pelvireg estimate part'"));
+}
+
+TEST(EstimatePartFile, IsRefusedWhenAPhaseHasNotOneTimeAStep)
+{
+  const ScratchFolder folder;
+  const Estimate estimate = sample_estimate();
+  EstimatePart bad = part;
+  bad.nominal_times.phase_ms[1].pop_back();
+  EstimateWriter writer(folder / "part.h5", estimate, rest_of(estimate.samples[0]), &bad);
+  writer.add(estimate.samples[1]);
+  writer.finish();
+  EXPECT_THAT(refusal_of([&] { EstimateReader(folder / "part.h5", EstimateReader::Kind::part); }),
+              HasSubstr("nominal_phase_ms/solve"));
 }
 } // namespace pelvireg::dataset::testing

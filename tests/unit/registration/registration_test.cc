@@ -4,9 +4,13 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <chrono>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <stdexcept>
+#include <string>
 
 namespace pelvireg::registration
 {
@@ -355,6 +359,47 @@ TEST(Registration, KeepsTheLastStateWhenAnObservationIsUnusable)
   bad.plane_origin.x() += 200; // misses both organs
   EXPECT_EQ(status_of(bad), StepStatus::no_control_points);
   EXPECT_EQ(registration.update(good).status, StepStatus::ok);
+}
+
+TEST(Registration, ThePhasesOfAStepTakeNoLongerThanTheStep)
+{
+  const Model model = two_organs_and_a_band();
+  Registration registration;
+  registration.prepare(model, {});
+  for (int step = 1; step <= 5; ++step)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_EQ(registration.update(moved_outlines(model, step * in_plane(0.5, 0.3))).status, StepStatus::ok);
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    double sum = 0;
+    for (const StepPhase &phase : step_phases)
+    {
+      EXPECT_GE(registration.phase_times().*phase.time, 0) << phase.name;
+      sum += registration.phase_times().*phase.time;
+    }
+    EXPECT_LE(sum, elapsed.count());
+    for (const double PhaseTimes::*work : {&PhaseTimes::match, &PhaseTimes::factorise, &PhaseTimes::compliance})
+      EXPECT_GT(registration.phase_times().*work, 0);
+  }
+  EXPECT_EQ(registration.update({}).status, StepStatus::no_control_points);
+  EXPECT_EQ(registration.phase_times().factorise, 0) << "of a step that ended before, not of the one before it";
+}
+
+TEST(StepPhases, AreAllOfPhaseTimesUnderDifferentNames)
+{
+  PhaseTimes times;
+  std::set<std::string> names;
+  for (std::size_t k = 0; k < step_phases.size(); ++k)
+  {
+    times.*step_phases[k].time = 1;
+    names.insert(step_phases[k].name);
+  }
+  EXPECT_EQ(names.size(), step_phases.size());
+  EXPECT_EQ(sizeof(PhaseTimes), step_phases.size() * sizeof(double));
+  std::array<double, step_phases.size()> values;
+  std::memcpy(values.data(), &times, sizeof times);
+  for (const double value : values)
+    EXPECT_EQ(value, 1) << "a time that no phase has";
 }
 
 TEST(Registration, CountsRefusedControlPoints)

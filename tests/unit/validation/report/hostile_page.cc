@@ -21,7 +21,7 @@ int main(int argc, char **argv)
                         .anatomy = anatomy,
                         .truth = truth,
                         .estimates = estimates,
-                        .timings = {},
+                        .timings = {{.condition = name, .n_steps = 1, .mean_ms = 1, .phases = {{name, 1.0}}}},
                         .pictures = {},
                         .provenance = {{name, name}},
                         .stages = {{name, 1.0}},

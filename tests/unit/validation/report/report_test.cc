@@ -25,11 +25,12 @@ struct Case
   dataset::Truth truth = test::sphere_truth(translation);
   std::vector<dataset::Estimate> estimates = {test::sphere_estimate("full", translation, 0.9),
                                               test::sphere_estimate("no_boundary_conditions", translation, 0.6)};
+  std::vector<runner::StepTiming> timings = {{"full", 6, 1.25, 1.5, 2.0}};
 
   std::string html(const std::vector<ProvenanceEntry> &provenance = {{"Command", "pelvireg run spheres"}}) const
   {
     const runner::Evaluation evaluation = runner::evaluate(anatomy, truth, estimates);
-    return report_html({evaluation, anatomy, truth, estimates, {{"full", 6, 1.25, 1.5, 2.0}}, {}, provenance});
+    return report_html({evaluation, anatomy, truth, estimates, timings, {}, provenance});
   }
 };
 
@@ -138,6 +139,48 @@ TEST(Report, SaysWhereTheTruthIsNotBetterKnownThanTheError)
   EXPECT_EQ(known.html().find("own error bar is not smaller"), std::string::npos);
   known.truth.discretisation_error->mean_by_organ(n - 1, 2) = 0.5;
   EXPECT_NE(known.html().find("not smaller than the error with all constraints for: <b>uterus</b>"), std::string::npos);
+}
+
+/// The section with the times.
+std::string times_in(const std::string &html)
+{
+  const std::size_t begin = html.find("<section id=\"time\">");
+  EXPECT_NE(begin, std::string::npos);
+  return html.substr(begin, html.find("</section>", begin) - begin);
+}
+
+TEST(Report, ShowsThePhasesThatWereRecordedWithTheirShares)
+{
+  Case timed;
+  timed.timings = {{.condition = "full",
+                    .n_steps = 6,
+                    .median_ms = 3,
+                    .p95_ms = 5,
+                    .max_ms = 6,
+                    .mean_ms = 4,
+                    .phases = {{"match", 1}, {"compliance", 2.5}, {"<later>", 0.5}}},
+                   {.condition = "no_boundary_conditions", .n_steps = 6, .median_ms = 1, .p95_ms = 1, .max_ms = 1}};
+  const std::string times = times_in(timed.html());
+  const auto row = [](const std::string &name, const std::string &mean, const std::string &share)
+  { return "<th scope=\"row\">" + name + "</th><td>" + mean + "</td><td>" + share + "</td>"; };
+  const std::size_t match = times.find(row("matching", "1.00", "25.0")),
+                    compliance = times.find(row("compliance W", "2.50", "62.5")),
+                    later = times.find(row("&lt;later&gt;", "0.50", "12.5")),
+                    whole = times.find(row("whole step", "4.00", "100.0"));
+  ASSERT_NE(whole, std::string::npos) << times;
+  EXPECT_LT(match, compliance) << "in the order of a step";
+  EXPECT_LT(compliance, later);
+  EXPECT_LT(later, whole);
+  EXPECT_NE(times.find("width=\"62.50\""), std::string::npos);
+  EXPECT_NE(times.find("Not recorded for: no_boundary_conditions."), std::string::npos);
+  EXPECT_EQ(times.find("whole step"), times.rfind("whole step")) << "one table, no empty one";
+}
+
+TEST(Report, SaysInASentenceThatNoPhaseWasRecorded)
+{
+  const std::string times = times_in(Case().html());
+  EXPECT_NE(times.find("Not recorded for: full."), std::string::npos);
+  EXPECT_EQ(times.find("class=\"bars\""), std::string::npos);
 }
 
 TEST(Report, IsTheSameOnEveryRun)

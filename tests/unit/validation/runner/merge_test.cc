@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 constexpr int samples = 6;
+const dataset::StepTimes two_steps{{3, 4}, {"match", "solve"}, {{1, 2}, {1.5, 0.5}}};
 
 std::string bytes_of(const fs::path &file)
 {
@@ -61,7 +62,7 @@ protected:
             .anatomy_sha256 = "anatomy",
             .observations_sha256 = "observations",
             .program_sha256 = "program",
-            .nominal_step_ms = {}};
+            .nominal_times = {}};
   }
 
   fs::path write_shard(const std::string &name, const dataset::EstimatePart &part, const dataset::Estimate &estimate,
@@ -182,9 +183,12 @@ TEST_F(Shards, RefuseShardsOfAnotherSetOfRuns)
 TEST_F(Shards, CarryTheNominalRunsStepTimes)
 {
   dataset::EstimatePart first = part(1, 2);
-  first.nominal_step_ms = {3, 4};
+  first.nominal_times = two_steps;
   const fs::path file = write_shard("first", first, estimate_, runs_of_shard(samples, {1, 2}));
-  EXPECT_EQ(read_shards({write_shard(2, 2), file}).origin.nominal_step_ms, (std::vector<double>{3, 4}));
+  const dataset::StepTimes times = read_shards({write_shard(2, 2), file}).origin.nominal_times;
+  EXPECT_EQ(times.step_ms, two_steps.step_ms);
+  EXPECT_EQ(times.phases, two_steps.phases);
+  EXPECT_EQ(times.phase_ms, two_steps.phase_ms);
 }
 
 TEST_F(Shards, PartStoreKeepsRunsUntilTheyAreRemovedAndGivesTheBytesOfTheWhole)
@@ -192,14 +196,15 @@ TEST_F(Shards, PartStoreKeepsRunsUntilTheyAreRemovedAndGivesTheBytesOfTheWhole)
   save(estimate_, folder_ / "whole.h5");
   const std::vector<int> all = runs_of_shard(samples, {});
   for (const int run : {4, 0, 6, 2}) // a register that was killed
-    store().save(estimate_.samples[static_cast<std::size_t>(run)], {1.0, 2.0});
+    store().save(estimate_.samples[static_cast<std::size_t>(run)], two_steps);
   EXPECT_TRUE(store().has(4));
   EXPECT_FALSE(store().has(1));
   for (const int run : {5, 1, 3})
-    store().save(estimate_.samples[static_cast<std::size_t>(run)], {1.0, 2.0});
+    store().save(estimate_.samples[static_cast<std::size_t>(run)], two_steps);
   store().assemble(all, folder_ / "assembled.h5");
   EXPECT_EQ(bytes_of(folder_ / "assembled.h5") == bytes_of(folder_ / "whole.h5"), true);
-  EXPECT_EQ(store().nominal_step_ms(), (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(store().nominal_times().step_ms, two_steps.step_ms);
+  EXPECT_EQ(store().nominal_times().phase_ms, two_steps.phase_ms);
   store().remove({0, 1, 2});
   EXPECT_TRUE(store().has(3));
   store().remove({3, 4, 5, 6});

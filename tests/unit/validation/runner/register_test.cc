@@ -337,6 +337,32 @@ TEST(RunRegistration, TimesTheNominalRunAndReportsProgress)
   EXPECT_EQ(timing.n_steps, 3);
   EXPECT_GT(timing.median_ms, 0);
   EXPECT_LE(timing.median_ms, timing.max_ms);
+  ASSERT_EQ(timing.phases.size(), registration::step_phases.size());
+  double sum = 0;
+  for (std::size_t k = 0; k < timing.phases.size(); ++k)
+  {
+    EXPECT_EQ(timing.phases[k].name, registration::step_phases[k].name);
+    sum += timing.phases[k].mean_ms;
+  }
+  EXPECT_GT(sum, 0);
+  EXPECT_LE(sum, timing.mean_ms);
+  EXPECT_LE(timing.mean_ms, timing.max_ms);
+}
+
+TEST(StepTiming, IsTheMedianOfTheStepsAndTheMeanOfEveryPhase)
+{
+  const StepTiming timing =
+      timing_of("full", {.step_ms = {6, 1, 2}, .phases = {"match", "solve"}, .phase_ms = {{3, 0.5, 1}, {2, 0.5, 0.5}}});
+  EXPECT_EQ(timing.n_steps, 3);
+  EXPECT_EQ(timing.median_ms, 2);
+  EXPECT_EQ(timing.max_ms, 6);
+  EXPECT_EQ(timing.mean_ms, 3);
+  ASSERT_EQ(timing.phases.size(), 2u);
+  EXPECT_EQ(timing.phases[0].name, "match");
+  EXPECT_EQ(timing.phases[0].mean_ms, 1.5);
+  EXPECT_EQ(timing.phases[1].mean_ms, 1);
+  EXPECT_EQ(phase_title("solve"), "constraint forces");
+  EXPECT_EQ(phase_title("a later program's"), "a later program's");
 }
 
 TEST(RunRegistration, RefusesAnUnknownConditionAndNamesTheKnownOnes)

@@ -97,7 +97,8 @@ TEST(ResultFiles, AllAreWrittenAndNothingElseStays)
 TEST(Summary, HoldsTheNumbersOfTheEvaluation)
 {
   const Evaluation evaluation = judged();
-  const auto summary = nlohmann::json::parse(summary_json(evaluation, {{"full", 6, 1.5, 2.0, 3.0}}));
+  const auto summary =
+      nlohmann::json::parse(summary_json(evaluation, {{"full", 6, 1.5, 2.0, 3.0, 1.75, {{"solve", 1.25}}}}));
   EXPECT_EQ(summary["case"], "spheres");
   EXPECT_EQ(summary["claims"].size(), assess_claims(evaluation, {}).size());
   const StepError &last = evaluation.by_step[24 + 11];
@@ -110,6 +111,8 @@ TEST(Summary, HoldsTheNumbersOfTheEvaluation)
               100 * (1 - last.distance.mean / evaluation.by_step[11].distance.mean), 1e-12);
   EXPECT_NEAR(summary["truth_motion"]["organs"]["uterus"]["mean_off_plane_mm"].get<double>(), 2, 1e-12);
   EXPECT_EQ(summary["timing"][0]["median_ms"], 1.5);
+  EXPECT_EQ(summary["timing"][0]["mean_ms"], 1.75);
+  EXPECT_EQ(summary["timing"][0]["phases"], nlohmann::json({{{"phase", "solve"}, {"mean_ms", 1.25}}}));
   const StepMetrics &metrics = evaluation.metrics_by_step[12 + 5];
   ASSERT_EQ(metrics.organ, "vagina");
   ASSERT_EQ(metrics.step, 6);
