@@ -30,7 +30,7 @@ std::string likely_cause(NewtonStatus status)
 } // namespace
 
 LoadStepper::LoadStepper(PelvisModel &model, const LoadStepperOptions &options)
-    : model_(model), options_(options), motion_(options.motion), work_(model.load, model.cavities)
+    : model_(model), options_(options), motion_(options.first_motion), work_(model.load, model.cavities)
 {
   current_.solution = Eigen::VectorXd::Zero(model.system.n_unknowns());
   previous_ = current_;
@@ -40,7 +40,7 @@ LoadStepper::LoadStepper(PelvisModel &model, const LoadStepperOptions &options)
 StepEffort LoadStepper::start(double target)
 {
   StepEffort effort;
-  while (!try_pressure(0, options_.start_pressure * motion_ / options_.motion, effort))
+  while (!try_pressure(0, options_.start_pressure * motion_ / options_.first_motion, effort))
     cut(effort);
   while (current_.displacement < options_.start_displacement * target)
   {
@@ -122,8 +122,8 @@ bool LoadStepper::try_step(Eigen::VectorXd trial, double largest_displacement, S
       model_.probe->mean_displacement(trial) > largest_displacement)
     return false;
   accept(std::move(trial));
-  if (effort.newton_iterations - iterations_before <= 12)
-    motion_ = std::min(1.5 * motion_, options_.motion);
+  if (effort.newton_iterations - iterations_before <= options_.easy_iterations)
+    motion_ = std::min(1.15 * motion_, options_.motion);
   return true;
 }
 

@@ -16,8 +16,10 @@ struct LoadStepperOptions
   double residual_tolerance = 1e-6; ///< N, largest scaled free residual of a converged state
   double start_pressure = 2e-6;     ///< MPa, first prescribed pressure
   double start_displacement = 0.02; ///< fraction of the target from which on the displacement is prescribed
-  double motion = 1.0;              ///< mm, largest motion of a surface point that a step aims at
-  double largest_motion = 2.0;      ///< mm, a step that moved any surface point farther is thrown away and cut
+  double first_motion = 0.8;        ///< mm, largest motion of a surface point that the first steps aim at
+  double motion = 1.4;              ///< mm, to which it grows while steps are easy
+  double largest_motion = 2.8;      ///< mm, a step that moved any surface point farther is thrown away and cut
+  int easy_iterations = 4;          ///< of Newton's method: a step with no more lets the next one be longer
   double least_motion = 1e-3;       ///< mm, steps that aim at less: the stepper gives up
   double close_residual = 0.1;      ///< N, a failed solution below it is not begun anew
   int max_iterations = 12;          ///< of Newton's method, a solution
@@ -90,7 +92,7 @@ private:
   LoadStepperOptions options_;
   State previous_, current_;
   double step_end_ = 0; ///< load parameter at the end of the step to be solved
-  double motion_;       ///< mm, what the steps aim at now: options_.motion, less after cuts
+  double motion_;       ///< mm, what the steps aim at now, options_.motion at most
   PathWork work_;
   NewtonResult last_result_; ///< of the last solution, for the message when it failed
 };
