@@ -2,6 +2,7 @@
 #include "validation/cli/track_stage.h"
 #include "validation/cli/version.h"
 #include "validation/report/figure_files.h"
+#include "validation/report/jpeg.h"
 #include "validation/report/pictures.h"
 #include "validation/report/print_pdf.h"
 #include "validation/report/report.h"
@@ -86,10 +87,10 @@ std::vector<report::ReportPicture> draw_pictures(const ResultDirectory &director
     progress.say("no pictures: " + outcome.message);
   std::vector<report::ReportPicture> pictures;
   for (const report::Picture &picture : report::picture_list())
-    pictures.push_back({directory.path() / picture_folder / picture.file, picture.caption});
+    pictures.push_back({report::jpeg_of_png(directory.path() / picture_folder / picture.file), picture.caption});
   if (directory.has(tracked_picture))
     pictures.push_back(
-        {directory.path() / tracked_picture,
+        {report::jpeg_of_png(directory.path() / tracked_picture),
          "Dynamic images at rest, after a third and two thirds of the motion and at its end, with tracked "
          "(solid) and true (dashed) outlines."});
   return pictures;

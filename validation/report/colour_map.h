@@ -17,7 +17,8 @@ inline constexpr std::array<Colour, 6> viridis = {{{0.267, 0.005, 0.329},
                                                    {0.478, 0.821, 0.318},
                                                    {0.993, 0.906, 0.144}}};
 
-inline constexpr double error_scale = 4; ///< mm, the paper's bound: the same in every report, so that pictures can be compared
+inline constexpr double error_scale =
+    4; ///< mm, the paper's bound: the same in every report, so that pictures can be compared
 
 inline const std::map<std::string, Colour> organ_colours = {{"bladder", {0.95, 0.80, 0.25}},
                                                             {"vagina", {0.95, 0.55, 0.65}},

@@ -3,8 +3,6 @@
 #include "validation/report/base64.h"
 
 #include <cstddef>
-#include <fstream>
-#include <iterator>
 
 namespace pelvireg::report
 {
@@ -64,12 +62,10 @@ std::string details(const std::string &summary, const std::string &body)
   return "<details><summary>" + escape(summary) + "</summary>\n" + body + "</details>\n";
 }
 
-std::string png_data_url(const std::filesystem::path &file)
+std::string jpeg_data_url(const std::string &bytes)
 {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (bytes.rfind("\x89PNG\r\n\x1a\n", 0) != 0)
+  if (bytes.rfind("\xFF\xD8\xFF", 0) != 0)
     return "";
-  return "data:image/png;base64," + base64(bytes);
+  return "data:image/jpeg;base64," + base64(bytes);
 }
 } // namespace pelvireg::report

@@ -1,7 +1,6 @@
 // The few pieces of HTML that the report is made of.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,6 +19,6 @@ std::string section(const std::string &id, const std::string &title, const std::
 /// Closed until the reader opens it. `summary` is escaped, `body` is HTML.
 std::string details(const std::string &summary, const std::string &body);
 
-/// The file as a data: URL. Empty when it cannot be read or does not begin like a PNG.
-std::string png_data_url(const std::filesystem::path &file);
+/// Bytes of a JPEG file as a data: URL. Empty when they do not begin like one.
+std::string jpeg_data_url(const std::string &bytes);
 } // namespace pelvireg::report

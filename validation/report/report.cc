@@ -26,7 +26,7 @@ std::string pictures_html(const std::vector<ReportPicture> &pictures)
 {
   std::string html;
   for (const ReportPicture &picture : pictures)
-    if (const std::string url = png_data_url(picture.file); !url.empty())
+    if (const std::string url = jpeg_data_url(picture.jpeg); !url.empty())
       html += fmt::format("<figure><img alt=\"{0}\" src=\"{1}\"><figcaption>{0}</figcaption></figure>\n",
                           escape(picture.caption), url);
   return html.empty() ? "<p>No pictures were drawn.</p>\n" : "<div class=\"panels wide\">\n" + html + "</div>\n";

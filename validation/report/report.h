@@ -14,10 +14,10 @@
 
 namespace pelvireg::report
 {
-/// A still to show: a PNG on disk and one sentence on what it shows. A file that does not exist is left out.
+/// A still to show: the bytes of a JPEG, none when there is no picture, and one sentence on what it shows.
 struct ReportPicture
 {
-  std::filesystem::path file;
+  std::string jpeg;
   std::string caption;
 };
 

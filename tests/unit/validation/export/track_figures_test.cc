@@ -2,14 +2,17 @@
 
 #include "synthetic/dataset/error.h"
 #include "tests/scratch_folder.h"
+#include "validation/report/jpeg.h"
 
 #include <gtest/gtest.h>
 
 #include <vtkImageData.h>
+#include <vtkJPEGReader.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
 #include <filesystem>
+#include <fstream>
 
 namespace pelvireg::report
 {
@@ -55,6 +58,31 @@ struct Picture
   }
 };
 } // namespace
+
+TEST(JpegOfPng, IsTheSamePictureAndNothingOfAnotherFile)
+{
+  const test::ScratchFolder folder;
+  const std::filesystem::path png = folder / "overlay.png", jpeg = folder / "overlay.jpg";
+  write_overlay(series(), {{0, {}}, {1, {}}}, png);
+  const std::string bytes = jpeg_of_png(png);
+  std::ofstream(jpeg, std::ios::binary) << bytes;
+  EXPECT_EQ(jpeg_of_png(png), bytes);
+  vtkNew<vtkJPEGReader> reader;
+  reader->SetFileName(jpeg.c_str());
+  reader->Update();
+  const Picture picture(png);
+  ASSERT_EQ(reader->GetOutput()->GetDimensions()[0], picture.width());
+  ASSERT_EQ(reader->GetOutput()->GetDimensions()[1], picture.height());
+  for (const int x : {picture.width() / 8, 7 * picture.width() / 8})
+  {
+    const int y = picture.height() / 2;
+    const auto *pixel =
+        static_cast<unsigned char *>(reader->GetOutput()->GetScalarPointer(x, picture.height() - 1 - y, 0));
+    EXPECT_NEAR(pixel[0], picture.at(x, y)[0], 3) << x;
+  }
+  EXPECT_EQ(jpeg_of_png(jpeg), "");
+  EXPECT_EQ(jpeg_of_png(folder / "none.png"), "");
+}
 
 TEST(TrackFigure, DrawsOutlinesOverTheFramesInTheirPlace)
 {

@@ -1,10 +1,6 @@
-#include "tests/scratch_folder.h"
 #include "validation/report/html.h"
 
 #include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
 
 namespace pelvireg::report
 {
@@ -22,26 +18,19 @@ TEST(Table, EscapesCellsAndFillsShortRows)
   EXPECT_NE(html.find("<th scope=\"row\">&lt;x&gt;</th><td></td>"), std::string::npos);
 }
 
-std::string url_of(const std::string &bytes)
+TEST(JpegDataUrl, IsBase64OfTheBytes)
 {
-  const test::ScratchFolder folder;
-  std::ofstream(folder / "picture.png", std::ios::binary) << bytes;
-  return png_data_url(folder / "picture.png");
+  // RFC 4648: "f", "fo", "foo" end in "==", "=" and nothing; three bytes of the head are four characters.
+  const std::string head = "\xFF\xD8\xFF";
+  EXPECT_EQ(jpeg_data_url(head + "f"), "data:image/jpeg;base64,/9j/Zg==");
+  EXPECT_EQ(jpeg_data_url(head + "fo"), "data:image/jpeg;base64,/9j/Zm8=");
+  EXPECT_EQ(jpeg_data_url(head + "foo"), "data:image/jpeg;base64,/9j/Zm9v");
 }
 
-TEST(PngDataUrl, IsBase64OfTheBytes)
+TEST(JpegDataUrl, OfAnythingElseIsEmpty)
 {
-  // RFC 4648: "f", "fo", "foo" end in "==", "=" and nothing.
-  const std::string head = "\x89PNG\r\n\x1a\n";
-  EXPECT_EQ(url_of(head + "f"), "data:image/png;base64,iVBORw0KGgpm");
-  EXPECT_EQ(url_of(head + "fo"), "data:image/png;base64,iVBORw0KGgpmbw==");
-  EXPECT_EQ(url_of(head + "foo"), "data:image/png;base64,iVBORw0KGgpmb28=");
-}
-
-TEST(PngDataUrl, OfAnythingElseIsEmpty)
-{
-  EXPECT_EQ(url_of("<svg onload=\"x\">"), "");
-  EXPECT_EQ(png_data_url("/nowhere/at/all.png"), "");
+  EXPECT_EQ(jpeg_data_url("<svg onload=\"x\">"), "");
+  EXPECT_EQ(jpeg_data_url(""), "");
 }
 } // namespace
 } // namespace pelvireg::report
