@@ -1,6 +1,7 @@
 #include "validation/cli/stages.h"
 #include "validation/cli/track_stage.h"
 #include "validation/cli/version.h"
+#include "validation/regression/result.h"
 #include "validation/report/figure_files.h"
 #include "validation/report/jpeg.h"
 #include "validation/report/pictures.h"
@@ -88,20 +89,31 @@ std::vector<report::ReportPicture> draw_pictures(const ResultDirectory &director
   std::vector<report::ReportPicture> pictures;
   for (const report::Picture &picture : report::picture_list())
     pictures.push_back({report::jpeg_of_png(directory.path() / picture_folder / picture.file), picture.caption});
-  if (directory.has(tracked_picture))
-    pictures.push_back(
-        {report::jpeg_of_png(directory.path() / tracked_picture),
-         "Dynamic images at rest, after a third and two thirds of the motion and at its end, with tracked "
-         "(solid) and true (dashed) outlines."});
   return pictures;
 }
+
+const std::vector<std::string> tracking_files = {tracked_picture, contour_error_figure, "contour_table.txt"};
+
+std::optional<report::TrackingResult> tracking_of(const ResultDirectory &directory)
+{
+  for (const std::string &file : tracking_files)
+    if (!directory.has(file))
+      return std::nullopt;
+  const auto text_of = [&](const std::string &file)
+  { return regression::read_text(directory.path() / file, "run 'pelvireg track' again"); };
+  return report::TrackingResult{report::jpeg_of_png(directory.path() / tracked_picture), text_of(contour_error_figure),
+                                text_of("contour_table.txt"), tracking_cost_table(directory)};
+}
+
 /// What both stages read.
 std::vector<std::string> inputs_of(const ResultDirectory &directory)
 {
   std::vector<std::string> inputs = {"anatomy.h5", "truth.h5", "summary.json"};
   for (const std::string &estimate : estimate_files(directory))
     inputs.push_back(estimate);
-  for (const std::string &file : {std::string("observations.h5"), tracked_picture})
+  if (directory.has("observations.h5"))
+    inputs.push_back("observations.h5");
+  for (const std::string &file : tracking_files)
     if (directory.has(file))
       inputs.push_back(file);
   return inputs;
@@ -140,7 +152,8 @@ report::ReportInputs report_inputs(const ResultDirectory &directory, const Judge
           .provenance = provenance_of(directory.manifest()),
           .stages = times_of(directory.manifest()),
           .commands = commands_of(directory.manifest()),
-          .observations = observations ? &*observations : nullptr};
+          .observations = observations ? &*observations : nullptr,
+          .tracking = tracking_of(directory)};
 }
 
 const std::vector<std::string> code_of_report = {"validation/metrics", "validation/runner", "validation/report",

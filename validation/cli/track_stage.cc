@@ -18,8 +18,6 @@ namespace pelvireg::cli
 {
 namespace
 {
-const std::string error_figure = "pictures/contour_errors.svg";
-
 /// Frames an increment, from the numbers of both.
 int frames_per_increment(const dataset::ImageSeries &series, const dataset::Observations &observations)
 {
@@ -90,7 +88,7 @@ Notes work(const std::filesystem::path &directory, const TrackRequest &request, 
   }
   dataset::write_text_file(directory / "contour_errors.csv", runner::contour_error_csv(errors));
   dataset::write_text_file(directory / "contour_table.txt", runner::contour_error_table(errors));
-  dataset::write_text_file(directory / error_figure, report::contour_error_figure(errors));
+  dataset::write_text_file(directory / contour_error_figure, report::contour_error_figure(errors));
   return notes;
 }
 
@@ -110,7 +108,7 @@ void make_tracked(ResultDirectory &directory, const TrackRequest &request)
                                         request.uterus_border),
                  .inputs = {"truth.h5", "observations.h5", dynamic_images},
                  .outputs = {"tracked.h5", "tracked_points.csv", "contour_errors.csv", "contour_table.txt",
-                             tracked_picture, error_figure},
+                             tracked_picture, contour_error_figure},
                  .work = [&](Progress &progress) { return work(directory.path(), request, progress); }});
 }
 

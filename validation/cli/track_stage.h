@@ -10,6 +10,7 @@ namespace pelvireg::cli
 {
 /// What the stage draws.
 inline const std::string tracked_picture = "pictures/tracked_frames.png";
+inline const std::string contour_error_figure = "pictures/contour_errors.svg";
 inline const std::string dynamic_images = "images/dyn.nrrd"; ///< made by the images stage
 
 struct TrackRequest

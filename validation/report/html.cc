@@ -68,4 +68,9 @@ std::string jpeg_data_url(const std::string &bytes)
     return "";
   return "data:image/jpeg;base64," + base64(bytes);
 }
+
+std::string svg_data_url(const std::string &text)
+{
+  return "data:image/svg+xml;base64," + base64(text);
+}
 } // namespace pelvireg::report

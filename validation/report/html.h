@@ -21,4 +21,7 @@ std::string details(const std::string &summary, const std::string &body);
 
 /// Bytes of a JPEG file as a data: URL. Empty when they do not begin like one.
 std::string jpeg_data_url(const std::string &bytes);
+
+/// An SVG file's text as a data: URL: as an image it runs no script and asks for nothing.
+std::string svg_data_url(const std::string &text);
 } // namespace pelvireg::report

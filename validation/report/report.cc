@@ -32,6 +32,28 @@ std::string pictures_html(const std::vector<ReportPicture> &pictures)
   return html.empty() ? "<p>No pictures were drawn.</p>\n" : "<div class=\"panels wide\">\n" + html + "</div>\n";
 }
 
+/// Frames, contour errors, and what tracking costs the registration.
+std::string tracking_html(const TrackingResult &tracking)
+{
+  const auto figure = [](const std::string &caption, const std::string &url)
+  {
+    return fmt::format("<figure><img class=\"sheet\" alt=\"{0}\" src=\"{1}\"><figcaption>{0}</figcaption></figure>\n",
+                       escape(caption), url);
+  };
+  const auto table_of = [](const std::string &text) { return "<pre class=\"table\">" + escape(text) + "</pre>\n"; };
+  std::string html = "<p>The organs were also followed through dynamic MR images rendered from the truth, from the "
+                     "rest outline on. Conditions that end in “images” were driven by the tracked outlines.</p>\n";
+  if (const std::string url = jpeg_data_url(tracking.frames_jpeg); !url.empty())
+    html += figure("Dynamic images at rest, after a third and two thirds of the motion and at its end, with tracked "
+                   "(solid) and true (dashed) outlines.",
+                   url);
+  html += table_of(tracking.contour_table);
+  if (!tracking.cost_table.empty())
+    html += table_of(tracking.cost_table);
+  return html + figure("Mean distance of the tracked outlines from the true ones, by organ and frame.",
+                       svg_data_url(tracking.error_figure));
+}
+
 /// A figure that the script replaces by a chart; `name` is the chart's.
 std::string chart(const std::string &name, const std::string &still)
 {
@@ -89,6 +111,8 @@ std::string space_sections(const Contents &contents)
                   "<p>Of each condition's nominal run, the five worst of the judge's surface samples at the last step "
                   "that are at least 10 mm apart.</p>\n" +
                       worst_places_html(inputs.evaluation, contents.worst));
+  if (inputs.tracking)
+    html += section("tracking", "Tracked in images", tracking_html(*inputs.tracking));
   return html;
 }
 
@@ -115,7 +139,7 @@ std::string further_sections(const Contents &contents)
 std::string footer(const ReportInputs &inputs)
 {
   std::string html = section("definitions", "Definitions", definitions_html(inputs.evaluation));
-  html += section("limits", "What this is not", limits_html());
+  html += section("limits", "What this is not", limits_html(inputs.tracking.has_value()));
   html += section("provenance", "Provenance", provenance_html(inputs.provenance, inputs.commands));
   return html + "<footer>\n" +
          details("Licences of the libraries in this page",

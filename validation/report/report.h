@@ -9,6 +9,7 @@
 #include "validation/runner/register.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,15 @@ struct ReportPicture
 {
   std::string jpeg;
   std::string caption;
+};
+
+/// What the tracker did with the images, of a result that has any.
+struct TrackingResult
+{
+  std::string frames_jpeg;   ///< frames with tracked and true outlines
+  std::string error_figure;  ///< SVG: contour error by organ and frame
+  std::string contour_table; ///< plain text: contour error by tracker and organ
+  std::string cost_table;    ///< plain text: the registration's error with exact and with tracked outlines, or empty
 };
 
 /// One line of the provenance table: program version, command line, SHA-256 of a file, …
@@ -49,6 +59,7 @@ struct ReportInputs
   std::vector<StageTime> stages = {};
   std::vector<std::string> commands = {};              ///< that make the result again
   const dataset::Observations *observations = nullptr; ///< control points of the 3-D view, when known
+  std::optional<TrackingResult> tracking = {};
 };
 
 /// The page as text. The same inputs give the same bytes; every string is escaped.

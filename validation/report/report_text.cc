@@ -142,13 +142,17 @@ std::string definitions_html(const runner::Evaluation &evaluation)
   return html + definitions_of_metrics(evaluation) + definitions_of_runs() + "</dl>\n";
 }
 
-std::string limits_html()
+std::string limits_html(bool has_tracked_outlines)
 {
+  const std::string outlines =
+      has_tracked_outlines ? "The images are synthetic, as is the motion in them. "
+                           : "The outlines that drive the registration are exact intersections: no image, no noise, no "
+                             "tracking error. ";
   return "<p>This compares a registration with a synthetic reference: verification by "
          "comparison. It is not a clinical validation. No patient's data are in it, the anatomy is parametric, and the "
          "true materials, loads and supports of a living pelvis are unknown. The reference is an independent "
          "finite-element model; its materials and supports were not tuned to the registration, only its load was "
-         "calibrated, and only to the displacement that the paper states. The outlines that drive the registration are "
-         "exact intersections: no image, no noise, no tracking error. A claim that failed is printed as refuted.</p>\n";
+         "calibrated, and only to the displacement that the paper states. " +
+         outlines + "A claim that failed is printed as refuted.</p>\n";
 }
 } // namespace pelvireg::report

@@ -19,5 +19,5 @@ std::string page_links();
 std::string definitions_html(const runner::Evaluation &evaluation);
 
 /// What the comparison does not show.
-std::string limits_html();
+std::string limits_html(bool has_tracked_outlines);
 } // namespace pelvireg::report

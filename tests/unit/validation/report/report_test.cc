@@ -26,11 +26,19 @@ struct Case
   std::vector<dataset::Estimate> estimates = {test::sphere_estimate("full", translation, 0.9),
                                               test::sphere_estimate("no_boundary_conditions", translation, 0.6)};
   std::vector<runner::StepTiming> timings = {{"full", 6, 1.25, 1.5, 2.0}};
+  std::optional<TrackingResult> tracking = {};
 
   std::string html(const std::vector<ProvenanceEntry> &provenance = {{"Command", "pelvireg run spheres"}}) const
   {
     const runner::Evaluation evaluation = runner::evaluate(anatomy, truth, estimates);
-    return report_html({evaluation, anatomy, truth, estimates, timings, {}, provenance});
+    return report_html({.evaluation = evaluation,
+                        .anatomy = anatomy,
+                        .truth = truth,
+                        .estimates = estimates,
+                        .timings = timings,
+                        .pictures = {},
+                        .provenance = provenance,
+                        .tracking = tracking});
   }
 };
 
@@ -147,6 +155,22 @@ std::string times_in(const std::string &html)
   const std::size_t begin = html.find("<section id=\"time\">");
   EXPECT_NE(begin, std::string::npos);
   return html.substr(begin, html.find("</section>", begin) - begin);
+}
+
+TEST(Report, ShowsWhatWasTrackedInImagesAndSaysThatTheOutlinesAreExactOtherwise)
+{
+  Case tracked;
+  EXPECT_EQ(tracked.html().find("Tracked in images"), std::string::npos);
+  EXPECT_NE(tracked.html().find("no tracking error"), std::string::npos);
+  tracked.tracking = {"\xFF\xD8\xFF"
+                      "foo",
+                      "<svg onload=\"x\"/>", "bezier <b>0.09", "full 0.42"};
+  const std::string html = tracked.html();
+  EXPECT_EQ(html.find("no tracking error"), std::string::npos);
+  EXPECT_EQ(html.find("<svg onload"), std::string::npos);
+  for (const std::string word : {"Tracked in images", "data:image/jpeg;base64,/9j/Zm9v", "bezier &lt;b&gt;0.09",
+                                 "full 0.42", "data:image/svg+xml;base64,PHN2ZyBvbmxvYWQ9IngiLz4="})
+    EXPECT_NE(html.find(word), std::string::npos) << word;
 }
 
 TEST(Report, ShowsThePhasesThatWereRecordedWithTheirShares)
