@@ -1,10 +1,10 @@
 #include "validation/runner/evaluate.h"
+#include "synthetic/dataset/parallel.h"
 
 #include "validation/runner/evaluate_checks.h"
 #include "validation/runner/judge_run.h"
 #include "validation/runner/node_table.h"
 #include "validation/runner/outer_surface.h"
-#include "validation/runner/parallel.h"
 
 #include <fmt/format.h>
 
@@ -111,16 +111,17 @@ std::vector<RunResult> judge_all(const Context &context, const std::vector<RunTo
   const EvaluateOptions &options = context.options;
   std::mutex progress_mutex;
   int n_done = 0;
-  for_each_index(static_cast<int>(runs.size()), options.n_threads,
-                 [&](int i)
-                 {
-                   results[static_cast<std::size_t>(i)] = fetch_and_judge(context, runs[static_cast<std::size_t>(i)]);
-                   const std::lock_guard lock(progress_mutex);
-                   ++n_done;
-                   if (options.progress)
-                     options.progress(n_done / static_cast<double>(runs.size()),
-                                      fmt::format("judged run {} of {}", n_done, runs.size()));
-                 });
+  dataset::for_each_index(static_cast<int>(runs.size()), options.n_threads,
+                          [&](int i)
+                          {
+                            results[static_cast<std::size_t>(i)] =
+                                fetch_and_judge(context, runs[static_cast<std::size_t>(i)]);
+                            const std::lock_guard lock(progress_mutex);
+                            ++n_done;
+                            if (options.progress)
+                              options.progress(n_done / static_cast<double>(runs.size()),
+                                               fmt::format("judged run {} of {}", n_done, runs.size()));
+                          });
   return results;
 }
 } // namespace

@@ -1,52 +1,26 @@
 #include "validation/runner/random_numbers.h"
 
-#include <cmath>
-#include <numbers>
+#include "synthetic/dataset/counter_random.h"
 
 namespace pelvireg::runner
 {
 namespace
 {
-double unit(std::uint32_t high, std::uint32_t low)
+std::array<std::uint32_t, 4> words_of(std::uint64_t seed, const Counter &counter)
 {
-  return static_cast<double>((static_cast<std::uint64_t>(high) << 32 | low) >> 11) * 0x1.0p-53;
+  return dataset::philox4x32({static_cast<std::uint32_t>(counter.sample), counter.index,
+                              static_cast<std::uint32_t>(counter.stream), counter.subindex},
+                             seed);
 }
 } // namespace
 
-std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key)
-{
-  // Multipliers and Weyl constants of the publication, table 2 and section 3.3.
-  constexpr std::uint64_t multiplier_0 = 0xD2511F53u;
-  constexpr std::uint64_t multiplier_1 = 0xCD9E8D57u;
-  constexpr std::uint32_t weyl_0 = 0x9E3779B9u;
-  constexpr std::uint32_t weyl_1 = 0xBB67AE85u;
-  for (int round = 0; round < 10; ++round)
-  {
-    const std::uint64_t product_0 = multiplier_0 * counter[0];
-    const std::uint64_t product_1 = multiplier_1 * counter[2];
-    counter = {static_cast<std::uint32_t>(product_1 >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(product_1),
-               static_cast<std::uint32_t>(product_0 >> 32) ^ counter[3] ^ key[1],
-               static_cast<std::uint32_t>(product_0)};
-    key[0] += weyl_0;
-    key[1] += weyl_1;
-  }
-  return counter;
-}
-
 std::array<double, 2> uniform_pair(std::uint64_t seed, const Counter &counter)
 {
-  const std::array<std::uint32_t, 4> words =
-      philox4x32({static_cast<std::uint32_t>(counter.sample), counter.index, static_cast<std::uint32_t>(counter.stream),
-                  counter.subindex},
-                 {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
-  return {unit(words[0], words[1]), unit(words[2], words[3])};
+  return dataset::uniform_pair(words_of(seed, counter));
 }
 
 std::array<double, 2> normal_pair(std::uint64_t seed, const Counter &counter)
 {
-  const auto [first, second] = uniform_pair(seed, counter);
-  const double radius = std::sqrt(-2 * std::log1p(-first)); // 1 - first lies in (0, 1]
-  const double angle = 2 * std::numbers::pi * second;
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+  return dataset::normal_pair(words_of(seed, counter));
 }
 } // namespace pelvireg::runner

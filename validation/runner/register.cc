@@ -1,8 +1,8 @@
 #include "validation/runner/register.h"
 
 #include "synthetic/dataset/error.h"
+#include "synthetic/dataset/parallel.h"
 #include "validation/runner/outer_surface.h"
-#include "validation/runner/parallel.h"
 #include "validation/runner/perturbation.h"
 
 #include <fmt/format.h>
@@ -271,15 +271,15 @@ void play_runs(const RegistrationRuns &runs, const std::vector<int> &numbers, co
       options.progress(static_cast<double>(n_done) / n_steps,
                        fmt::format("{}: step {} of {} ({} runs)", runs.description().label(), n_done, n_steps, n_runs));
   };
-  for_each_index(n_runs, options.n_threads,
-                 [&](int i)
-                 {
-                   dataset::StepTimes times;
-                   const dataset::EstimateSample run =
-                       runs.play(numbers[static_cast<std::size_t>(i)], times, step_done);
-                   const std::lock_guard lock(done_mutex);
-                   done(run, times);
-                 });
+  dataset::for_each_index(n_runs, options.n_threads,
+                          [&](int i)
+                          {
+                            dataset::StepTimes times;
+                            const dataset::EstimateSample run =
+                                runs.play(numbers[static_cast<std::size_t>(i)], times, step_done);
+                            const std::lock_guard lock(done_mutex);
+                            done(run, times);
+                          });
 }
 
 dataset::Estimate run_registration(const dataset::Anatomy &anatomy, const dataset::Observations &observations,

@@ -20,7 +20,6 @@ namespace
 {
 using Eigen::Vector3d;
 
-constexpr const char *mr_image_storage = "1.2.840.10008.5.1.4.1.1.4";
 constexpr double position_tolerance = 0.01; ///< mm, for what is written with a few digits
 
 /// One file of a series.

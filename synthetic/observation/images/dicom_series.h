@@ -7,6 +7,9 @@
 
 namespace pelvireg::observation
 {
+/// SOP class of what is read and written: MR Image Storage.
+inline constexpr const char *mr_image_storage = "1.2.840.10008.5.1.4.1.1.4";
+
 /// Folders that hold one MR series of single-frame grey images (MR Image Storage, any transfer syntax that GDCM
 /// decodes), files in any order and of any name; hidden files and DICOMDIR are passed over, everything else must belong
 /// to it. Rescale slope and intercept are applied where given.

@@ -1,5 +1,6 @@
 #include "synthetic/dataset/error.h"
 #include "synthetic/observation/images/content_uid.h"
+#include "synthetic/observation/images/dicom_series.h"
 #include "synthetic/observation/images/image_checks.h"
 #include "synthetic/observation/images/image_files.h"
 
@@ -21,8 +22,6 @@ namespace pelvireg::observation
 namespace
 {
 using Eigen::Vector3d;
-
-constexpr const char *mr_image_storage = "1.2.840.10008.5.1.4.1.1.4";
 
 /// What all images of a series share.
 struct Series

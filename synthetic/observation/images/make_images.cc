@@ -1,6 +1,7 @@
 #include "synthetic/observation/images/make_images.h"
 
 #include "synthetic/dataset/error.h"
+#include "synthetic/dataset/parallel.h"
 #include "synthetic/observation/images/acquisition.h"
 #include "synthetic/observation/images/slice_renderer.h"
 #include "synthetic/observation/plane_intersection.h"
@@ -10,9 +11,7 @@
 
 #include <atomic>
 #include <cmath>
-#include <exception>
 #include <mutex>
-#include <thread>
 
 namespace pelvireg::observation
 {
@@ -22,37 +21,6 @@ using dataset::ImageGeometry;
 using Eigen::Vector3d;
 
 constexpr double tse_thickness = 5; ///< mm, 1 mm gap
-
-/// Calls work(i) for i = 0 … n - 1, each once, on several threads; passes on the first exception.
-void for_each_index(int n, int n_threads, const std::function<void(int)> &work)
-{
-  std::atomic<int> next = 0;
-  std::exception_ptr problem;
-  std::mutex mutex;
-  const auto run = [&]
-  {
-    try
-    {
-      for (int i = next++; i < n; i = next++)
-        work(i);
-    }
-    catch (...) // kept for the caller, whatever it is
-    {
-      const std::lock_guard lock(mutex);
-      if (!problem)
-        problem = std::current_exception();
-      next = n;
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 1; i < n_threads; ++i)
-    threads.emplace_back(run);
-  run();
-  for (std::thread &thread : threads)
-    thread.join();
-  if (problem)
-    std::rethrow_exception(problem);
-}
 
 /// Columns to the back, rows down, in a plane of this normal, around `centre`.
 ImageGeometry geometry_around(const Vector3d &centre, const Vector3d &normal, int matrix, double pixel)
@@ -143,21 +111,22 @@ dataset::ImageSeries dynamic_series(const std::vector<TissueBody> &bodies, const
   const Raster coil = coil_sensitivity(geometry.rows * factor, geometry.columns * factor);
   std::atomic<int> done = 0;
   std::mutex mutex;
-  for_each_index(n_frames, options.n_threads,
-                 [&](int frame)
-                 {
-                   std::vector<Raster> instants;
-                   for (int i = 0; i < options.segments; ++i)
-                   {
-                     const double at = frame + (i + 0.5) / options.segments - 0.5; // in frames
-                     instants.push_back(coil * renderer.at(at / options.frames_per_increment));
-                   }
-                   put(scanner.acquire(instants, static_cast<std::uint32_t>(frame)), frame, series.pixels);
-                   ++done;
-                   const std::lock_guard lock(mutex);
-                   if (options.progress)
-                     options.progress(0.85 * done / n_frames, fmt::format("frame {} of {}", done.load(), n_frames));
-                 });
+  dataset::for_each_index(n_frames, options.n_threads,
+                          [&](int frame)
+                          {
+                            std::vector<Raster> instants;
+                            for (int i = 0; i < options.segments; ++i)
+                            {
+                              const double at = frame + (i + 0.5) / options.segments - 0.5; // in frames
+                              instants.push_back(coil * renderer.at(at / options.frames_per_increment));
+                            }
+                            put(scanner.acquire(instants, static_cast<std::uint32_t>(frame)), frame, series.pixels);
+                            ++done;
+                            const std::lock_guard lock(mutex);
+                            if (options.progress)
+                              options.progress(0.85 * done / n_frames,
+                                               fmt::format("frame {} of {}", done.load(), n_frames));
+                          });
   return series;
 }
 
@@ -186,16 +155,16 @@ dataset::ImageVolume stack_of(const std::vector<TissueBody> &bodies, const datas
   const Acquisition scanner(acquisition_of(setting.geometry, options.static_snr, 0.9, seed_of(options, setting.noise)));
   const int factor = SliceSetting{}.oversampling;
   const Raster coil = coil_sensitivity(setting.geometry.rows * factor, setting.geometry.columns * factor);
-  for_each_index(volume.slices, options.n_threads,
-                 [&](int slice)
-                 {
-                   SliceSetting one{
-                       .geometry = volume.geometry, .thickness = setting.thickness, .signals = setting.signals};
-                   one.geometry.origin += slice * volume.slice_step;
-                   const SliceRenderer renderer(bodies, one, setting.increment, setting.increment);
-                   const Raster ideal = coil * renderer.at(static_cast<double>(setting.increment));
-                   put(scanner.acquire({ideal}, static_cast<std::uint32_t>(slice)), slice, volume.pixels);
-                 });
+  dataset::for_each_index(
+      volume.slices, options.n_threads,
+      [&](int slice)
+      {
+        SliceSetting one{.geometry = volume.geometry, .thickness = setting.thickness, .signals = setting.signals};
+        one.geometry.origin += slice * volume.slice_step;
+        const SliceRenderer renderer(bodies, one, setting.increment, setting.increment);
+        const Raster ideal = coil * renderer.at(static_cast<double>(setting.increment));
+        put(scanner.acquire({ideal}, static_cast<std::uint32_t>(slice)), slice, volume.pixels);
+      });
   return volume;
 }
 

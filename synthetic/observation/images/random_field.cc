@@ -1,17 +1,13 @@
 #include "synthetic/observation/images/random_field.h"
 
+#include "synthetic/dataset/counter_random.h"
+
 #include <cmath>
-#include <numbers>
 
 namespace pelvireg::observation
 {
 namespace
 {
-double unit(std::uint32_t high, std::uint32_t low)
-{
-  return static_cast<double>((static_cast<std::uint64_t>(high) << 32 | low) >> 11) * 0x1.0p-53;
-}
-
 /// A well mixed word of a lattice point (finaliser of MurmurHash3, Appleby 2011).
 std::uint32_t lattice_word(std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t stream)
 {
@@ -41,25 +37,9 @@ double fade(double t)
 }
 } // namespace
 
-std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter, std::uint64_t key)
-{
-  // Multipliers and Weyl constants of the publication, table 2 and section 3.3.
-  std::uint32_t key_0 = static_cast<std::uint32_t>(key), key_1 = static_cast<std::uint32_t>(key >> 32);
-  for (int round = 0; round < 10; ++round, key_0 += 0x9E3779B9u, key_1 += 0xBB67AE85u)
-  {
-    const std::uint64_t a = std::uint64_t{0xD2511F53u} * counter[0], b = std::uint64_t{0xCD9E8D57u} * counter[2];
-    counter = {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key_0, static_cast<std::uint32_t>(b),
-               static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key_1, static_cast<std::uint32_t>(a)};
-  }
-  return counter;
-}
-
 std::array<double, 2> normal_pair(std::uint64_t seed, std::uint32_t image, std::uint32_t index)
 {
-  const std::array<std::uint32_t, 4> words = philox({index, image, 0, 0}, seed);
-  const double radius = std::sqrt(-2 * std::log1p(-unit(words[0], words[1]))); // 1 - u lies in (0, 1]
-  const double angle = 2 * std::numbers::pi * unit(words[2], words[3]);
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+  return dataset::normal_pair(dataset::philox4x32({index, image, 0, 0}, seed));
 }
 
 double gradient_noise(const Eigen::Vector3d &point, double cell, std::uint32_t stream)

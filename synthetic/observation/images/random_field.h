@@ -8,10 +8,7 @@
 
 namespace pelvireg::observation
 {
-/// Philox 4x32-10 (Salmon, Moraes, Dror, Shaw 2011): four random words from a counter and a key, with no state.
-std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter, std::uint64_t key);
-
-/// Two independent standard normal numbers (Box and Muller 1958) of image `image`, sample `index`.
+/// Two independent standard normal numbers of image `image`, sample `index`.
 std::array<double, 2> normal_pair(std::uint64_t seed, std::uint32_t image, std::uint32_t index);
 
 /// Gradient noise (Perlin 1985, quintic fade of 2002): smooth, mean 0, about -1 … 1, no structure finer than `cell` mm.

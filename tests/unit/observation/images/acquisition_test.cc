@@ -136,15 +136,6 @@ TEST(Acquisition, RefusesMoreLinesThanTheImageHas)
   EXPECT_THROW(Acquisition({.rows = 32, .columns = 32, .acquired_rows = 4, .acquired_columns = 32}), InputError);
 }
 
-TEST(RandomNumbers, ArePhilox)
-{
-  // Known answers of the authors' Random123 distribution.
-  EXPECT_EQ(philox({0, 0, 0, 0}, 0), (std::array<std::uint32_t, 4>{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
-  const std::uint32_t ones = 0xffffffff;
-  EXPECT_EQ(philox({ones, ones, ones, ones}, ~std::uint64_t{0}),
-            (std::array<std::uint32_t, 4>{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
-}
-
 TEST(Texture, HasMeanZeroAndNoStructureFinerThanItsCell)
 {
   double sum = 0, squares = 0, steepest = 0;

@@ -1,4 +1,4 @@
-#include "validation/runner/parallel.h"
+#include "synthetic/dataset/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace pelvireg::runner
+namespace pelvireg::dataset
 {
 void for_each_index(int n, int n_threads, const std::function<void(int)> &job)
 {
@@ -43,4 +43,4 @@ void for_each_index(int n, int n_threads, const std::function<void(int)> &job)
     if (failure)
       std::rethrow_exception(failure);
 }
-} // namespace pelvireg::runner
+} // namespace pelvireg::dataset

@@ -1,4 +1,4 @@
-#include "validation/runner/parallel.h"
+#include "synthetic/dataset/parallel.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace pelvireg::runner
+namespace pelvireg::dataset
 {
 namespace
 {
@@ -55,4 +55,4 @@ TEST(ForEachIndex, BeginsNoFurtherJobAfterAFailure)
   EXPECT_EQ(begun, (std::vector<int>{0, 1, 2}));
 }
 } // namespace
-} // namespace pelvireg::runner
+} // namespace pelvireg::dataset
