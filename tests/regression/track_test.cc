@@ -80,6 +80,8 @@ TEST_F(Program, RefusesToTrackWhatIsNotThere)
   expect_refused("track --nrrd organs.mrk.json --contours organs.mrk.json --out bad", "organs.mrk.json");
   expect_refused("track --nrrd dyn.nrrd --contours organs.mrk.json --tracker kalman --out bad", "kalman");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bad"));
+  expect_refused("run quick --snr 10 --out bad", "--snr 10 is the noise of images");
+  expect_refused("run quick --from exact --snr 10 --out bad", "--snr 10 is the noise of images");
   expect_refused("run quick --from images --snr 0.5 --out bad", "signal-to-noise ratio is 0.5");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "bad"));
   ASSERT_EQ(call("anatomy quick --out r").status, 0);

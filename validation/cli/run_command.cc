@@ -145,18 +145,17 @@ void add_run_command(CLI::App &program, Invocation &invocation)
                       "Result directory, made when missing; out/CASE when not given. For several cases the folder of "
                       "their directories");
   add_condition_option(*command, arguments->conditions);
-  CLI::Option *from = command
-                          ->add_option("--from", arguments->from,
-                                       "exact: outlines are intersections with the truth. images: the truth is also "
-                                       "rendered as MR images and the organs are tracked in them; the registration is "
-                                       "driven by both, for comparison")
-                          ->check(CLI::IsMember({"exact", "images"}))
-                          ->capture_default_str();
   command
-      ->add_option("--snr", arguments->images.snr,
-                   "With --from images: urine's signal over the noise in the dynamic images; 0: no noise")
-      ->needs(from)
+      ->add_option("--from", arguments->from,
+                   "exact: outlines are intersections with the truth. images: the truth is also rendered as MR images "
+                   "and the organs are tracked in them; the registration is driven by both, for comparison")
+      ->check(CLI::IsMember({"exact", "images"}))
       ->capture_default_str();
+  const CLI::Option *snr = command
+                               ->add_option("--snr", arguments->images.snr,
+                                            "With --from images: urine's signal over the noise in the dynamic images; "
+                                            "0: no noise")
+                               ->capture_default_str();
   add_sample_options(*command, arguments->settings);
   add_jobs_option(*command, arguments->jobs);
   command->footer("Examples:\n  pelvireg run quick\n  pelvireg run t005 --out out/t005 --jobs 2\n"
@@ -166,7 +165,14 @@ void add_run_command(CLI::App &program, Invocation &invocation)
                   "  pelvireg run t005 --samples 100 --perturb modulus,surface,outline,plane\nA stage whose inputs "
                   "have not changed is not run again.");
   command->callback(
-      [&invocation, arguments]
-      { invocation.action = [&invocation, arguments] { run_cases(*arguments, invocation.command_line); }; });
+      [&invocation, arguments, snr]
+      {
+        if (snr->count() > 0 && arguments->from != "images")
+          throw InputError(
+              fmt::format("--snr {} is the noise of images, but outlines come from the exact motion (--from "
+                          "{}); add --from images, or leave --snr out.",
+                          arguments->images.snr, arguments->from));
+        invocation.action = [&invocation, arguments] { run_cases(*arguments, invocation.command_line); };
+      });
 }
 } // namespace pelvireg::cli
