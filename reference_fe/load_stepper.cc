@@ -122,7 +122,8 @@ bool LoadStepper::try_step(Eigen::VectorXd trial, double largest_displacement, S
       model_.probe->mean_displacement(trial) > largest_displacement)
     return false;
   accept(std::move(trial));
-  if (effort.newton_iterations - iterations_before <= options_.easy_iterations)
+  const bool is_as_long_as_aimed = motion >= options_.reached_motion * motion_;
+  if (is_as_long_as_aimed && effort.newton_iterations - iterations_before <= options_.easy_iterations)
     motion_ = std::min(1.15 * motion_, options_.motion);
   return true;
 }

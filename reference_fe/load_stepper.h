@@ -19,7 +19,8 @@ struct LoadStepperOptions
   double first_motion = 0.8;        ///< mm, largest motion of a surface point that the first steps aim at
   double motion = 1.4;              ///< mm, to which it grows while steps are easy
   double largest_motion = 2.8;      ///< mm, a step that moved any surface point farther is thrown away and cut
-  int easy_iterations = 4;          ///< of Newton's method: a step with no more lets the next one be longer
+  int easy_iterations = 4;          ///< of Newton's method: a step with no more lets the next one be longer,
+  double reached_motion = 0.8;      ///< if it was as long as this share of the motion aimed at
   double least_motion = 1e-3;       ///< mm, steps that aim at less: the stepper gives up
   double close_residual = 0.1;      ///< N, a failed solution below it is not begun anew
   int max_iterations = 12;          ///< of Newton's method, a solution
