@@ -160,22 +160,28 @@ BarEnd BarSurface::closest(const Vector3d &point) const
   return end_of(position, shares);
 }
 
-BarEnd closest_on_loop(const dataset::Points &points, const dataset::Integers &loop, const Vector3d &point)
+std::vector<LoopPart> equal_parts(const dataset::Points &points, const dataset::Integers &loop)
 {
-  BarEnd end;
-  double least = std::numeric_limits<double>::infinity();
-  for (Eigen::Index i = 0; i < loop.size(); ++i)
+  constexpr int n = 6;
+  std::vector<LoopPart> parts;
+  for (Eigen::Index i = 0; i < loop.size(); i += 2)
   {
-    const std::int32_t from = loop[i], to = loop[(i + 1) % loop.size()];
-    const Vector3d a = points.row(from).transpose(), along = points.row(to).transpose() - a;
-    const double t = std::clamp((point - a).dot(along) / along.squaredNorm(), 0., 1.);
-    const Vector3d nearest = a + t * along;
-    if (const double distance = (nearest - point).squaredNorm(); distance < least)
+    const std::array<std::int32_t, 3> edge = {loop[i], loop[i + 1], loop[(i + 2) % loop.size()]};
+    const auto at = [&](double t)
     {
-      least = distance;
-      end = end_of(nearest, {{from, 1 - t}, {to, t}});
+      Vector3d position = Vector3d::Zero();
+      for (std::size_t k = 0; k < 3; ++k)
+        position += quadratic(t)[k] * points.row(edge[k]).transpose();
+      return position;
+    };
+    for (int part = 0; part < n; ++part)
+    {
+      const double from = static_cast<double>(part) / n, to = (part + 1.) / n, t = (from + to) / 2;
+      const double first = std::max(0., 1 - 3 * t), last = std::max(0., 3 * t - 2);
+      parts.push_back({end_of(at(t), {{edge[0], first}, {edge[1], 1 - first - last}, {edge[2], last}}),
+                       (at(to) - at(from)).norm()});
     }
   }
-  return end;
+  return parts;
 }
 } // namespace pelvireg::anatomy

@@ -37,6 +37,15 @@ private:
   std::vector<Eigen::Vector3i> triangles_; ///< between samples
 };
 
-/// The nearest point of a closed polygon of nodes, carried by the two nodes beside it.
-BarEnd closest_on_loop(const dataset::Points &points, const dataset::Integers &loop, const Eigen::Vector3d &point);
+/// A piece of a loop of nodes: its middle, as an end for bars, and its length in mm.
+struct LoopPart
+{
+  BarEnd middle;
+  double length;
+};
+
+/// A closed loop of quadratic edges (corner, middle, corner, ...), each edge in six parts. Equal pulls on all parts of
+/// an edge reach its nodes as a uniform pull does, a sixth to a corner and two thirds to the middle: other shares notch
+/// it.
+std::vector<LoopPart> equal_parts(const dataset::Points &points, const dataset::Integers &loop);
 } // namespace pelvireg::anatomy

@@ -13,7 +13,6 @@
 
 namespace pelvireg::anatomy
 {
-using dataset::Points;
 using dataset::ReferenceModel;
 using dataset::ReferenceTruss;
 using Eigen::Vector3d;
@@ -24,7 +23,6 @@ namespace
 constexpr double retropubic_facing = 0.8, retropubic_facing_fade = 0.2; // cosine between wall and bone
 constexpr double retropubic_fade = 12;                                  // mm
 constexpr double hiatus_fade = 4;                                       // mm
-constexpr int hiatus_stations = 72;                                     // about 3 mm of the rim each
 constexpr double least_area = 1e-3;                                     // mm^2, of a bar
 
 /// Share a bar out over the nodes around its end: parallel bars whose sections add up to its own.
@@ -154,7 +152,7 @@ void add_retropubic(const Parameters &p, const ReferenceModel &model, std::vecto
 }
 
 /// A bar between points of two parts: parallel ones between the nodes that carry its ends.
-void append_between(const ReferenceTruss &bar, const BarEnd &a, const Points &points_a, const BarEnd &b,
+void append_between(const ReferenceTruss &bar, const BarEnd &a, const BarSurface &surface_a, const BarEnd &b,
                     const BarSurface &surface_b, std::vector<ReferenceTruss> &bars)
 {
   for (const auto &[node_a, weight_a] : a.nodes)
@@ -163,40 +161,37 @@ void append_between(const ReferenceTruss &bar, const BarEnd &a, const Points &po
       bars.push_back(bar);
       bars.back().node_a = node_a;
       bars.back().node_b = node_b;
-      bars.back().offset_b = b.position - a.position + points_a.row(node_a).transpose() - surface_b.node(node_b);
+      bars.back().offset_b = b.position - a.position + surface_a.node(node_a) - surface_b.node(node_b);
       bars.back().area *= weight_a * weight_b;
     }
 }
 
-/// From the rim of the hiatus to the closest points of vagina and anal canal within reach, at the same stations of the
-/// rim on every mesh.
+/// From the rim of the hiatus to the closest points of vagina and anal canal within reach.
 void add_hiatus(const Parameters &p, const ReferenceModel &model, std::vector<ReferenceTruss> &bars)
 {
   const auto floor = std::find_if(model.shells.begin(), model.shells.end(),
                                   [](const dataset::ReferenceShell &shell) { return shell.name == "pelvic_floor"; });
-  const std::set<std::int32_t> fixed(floor->fixed_nodes.data(), floor->fixed_nodes.data() + floor->fixed_nodes.size());
+  const std::set<std::int32_t> fixed(floor->fixed_nodes.begin(), floor->fixed_nodes.end());
   const std::vector<dataset::Integers> loops = boundary_loops(floor->cells);
   const auto rim = std::find_if(loops.begin(), loops.end(),
                                 [&](const dataset::Integers &loop) { return fixed.count(loop[0]) == 0; });
-  const std::vector<Vector3d> stations = hiatus_rim(p.pelvic_floor, hiatus_stations);
+  const BarSurface floor_surface(model, floor->name);
+  const std::vector<LoopPart> parts = equal_parts(floor->midsurface, *rim);
   for (const std::string organ : {"vagina", "rectum"})
   {
     const BarSurface surface(model, organ);
-    for (int i = 0; i < hiatus_stations; ++i)
+    for (const LoopPart &part : parts)
     {
-      const auto station = [&](int k)
-      { return stations[static_cast<std::size_t>((k + hiatus_stations) % hiatus_stations)]; };
-      const double length = ((station(i + 1) - station(i)).norm() + (station(i) - station(i - 1)).norm()) / 2;
-      const BarEnd from = closest_on_loop(floor->midsurface, *rim, station(i)), to = surface.closest(station(i));
-      const double reach = (to.position - station(i)).norm();
+      const BarEnd end = surface.closest(part.middle.position);
+      const double reach = (end.position - part.middle.position).norm();
       ReferenceTruss bar;
       bar.group = "hiatus";
       bar.part_a = "pelvic_floor";
       bar.part_b = organ;
-      bar.area = p.hiatus_area_per_length * length * fade_in(-reach, -p.hiatus_reach, hiatus_fade);
+      bar.area = p.hiatus_area_per_length * part.length * fade_in(-reach, -p.hiatus_reach, hiatus_fade);
       bar.material = p.material_of.at("hiatus");
       if (bar.area > least_area)
-        append_between(bar, from, floor->midsurface, to, surface, bars);
+        append_between(bar, part.middle, floor_surface, end, surface, bars);
     }
   }
 }

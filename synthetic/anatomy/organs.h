@@ -15,10 +15,8 @@ std::vector<Chart> bladder_charts(const BladderShape &shape, double size);
 std::vector<Chart> vagina_charts(const VaginaShape &vagina, const UterusShape &uterus, double size, double aspect = 1);
 std::vector<Chart> uterus_charts(const UterusShape &uterus, const VaginaShape &vagina, double size);
 std::vector<Chart> rectum_charts(const RectumShape &shape, double size);
-/// The mid-surface, normals cranial.
+/// The mid-surface, normals cranial: the bowl, and behind it, with edge_radius, a quarter turn down over the bone.
 std::vector<Chart> floor_charts(const FloorShape &shape, double size);
-/// n points of the rim of the hiatus, once around.
-std::vector<Eigen::Vector3d> hiatus_rim(const FloorShape &shape, int n);
 
 /// The planar, elliptic patch in which the cervix ends on the straight anterior wall of the vagina.
 struct CervixPatch

@@ -121,6 +121,7 @@ FloorShape read_floor(TableReader table)
                fmt::format("has {} points, but hiatus has {}; give as many.", shape.edge.size(), shape.hiatus.size()));
   shape.sag = table.number("sag", {-20, 30, false});
   shape.thickness = table.number("thickness", positive);
+  shape.edge_radius = table.number("edge_radius", {0, 30, false});
   table.finish();
   return shape;
 }

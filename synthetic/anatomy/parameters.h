@@ -56,6 +56,7 @@ struct FloorShape
   std::vector<Eigen::Vector3d> hiatus, edge; ///< left halves, anterior to posterior midline, mirrored
   double sag = 0;                            ///< depth of the bowl below the straight line from hiatus to edge
   double thickness = 0;
+  double edge_radius = 0; ///< mm, with which the floor turns down over the bone at its edge; 0: it ends there
 };
 
 /// A ligament or fascia, left and right: one patch-to-patch geometry for the bars and the hexahedral band.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace pelvireg::anatomy
 {
@@ -29,6 +30,27 @@ using Edge = std::pair<std::int32_t, std::int32_t>;
 Edge edge_of(std::int32_t a, std::int32_t b)
 {
   return {std::min(a, b), std::max(a, b)};
+}
+
+double length(const Integers &loop, const Points &points)
+{
+  double sum = 0;
+  for (Eigen::Index i = 0; i < loop.size(); ++i)
+    sum += (points.row(loop[i]) - points.row(loop[(i + 1) % loop.size()])).norm();
+  return sum;
+}
+
+/// The bony edge, which is the longer loop, and all that turns over it from there; the hiatus is free.
+Integers held_floor_nodes(const dataset::ReferenceShell &floor, const std::vector<Integers> &loops, const Chart &bowl)
+{
+  const Integers &edge = *std::max_element(loops.begin(), loops.end(),
+                                           [&](const Integers &a, const Integers &b)
+                                           { return length(a, floor.midsurface) < length(b, floor.midsurface); });
+  std::set<std::int32_t> held(edge.begin(), edge.end());
+  for (Eigen::Index cell = static_cast<Eigen::Index>(bowl.n_a) * bowl.n_b; cell < floor.cells.rows(); ++cell)
+    held.insert(floor.cells.row(cell).begin(), floor.cells.row(cell).end());
+  const std::vector<std::int32_t> nodes(held.begin(), held.end());
+  return Eigen::Map<const Integers>(nodes.data(), static_cast<Eigen::Index>(nodes.size()));
 }
 
 /// Curved boundary of the solid: two quadratic triangles a cell of the quadratic mesh, nodes of that mesh.
@@ -213,17 +235,7 @@ dataset::ReferenceModel make_reference(const Parameters &p)
         shell.cavity = filling->second.control;
       continue;
     }
-    // The longer loop is the bony edge; the hiatus is free.
-    const auto mean_distance = [&](const Integers &loop)
-    {
-      double sum = 0;
-      for (Eigen::Index i = 0; i < loop.size(); ++i)
-        sum += (shell.midsurface.row(loop[i]) - shell.midsurface.row(loop[(i + 1) % loop.size()])).norm();
-      return sum;
-    };
-    shell.fixed_nodes = joined(
-        {*std::max_element(loops.begin(), loops.end(),
-                           [&](const Integers &a, const Integers &b) { return mean_distance(a) < mean_distance(b); })});
+    shell.fixed_nodes = held_floor_nodes(shell, loops, floor_charts(p.pelvic_floor, size("pelvic_floor")).front());
   }
   model.solids.push_back(
       make_solid("uterus", material("uterus"), uterus_charts(p.uterus, p.vagina, size("uterus")), size("uterus")));
