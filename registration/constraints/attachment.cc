@@ -44,8 +44,10 @@ Eigen::Vector3d attachment_gap(const AttachedNode &node, const Points &positions
   return positions_a.row(node.node_a).transpose() - point_of_b(node, positions_b) - node.rest_offset;
 }
 
-void add_attachment_rows(const AttachedNode &node, const Eigen::Vector3d &gap, ConstraintRows &rows)
+void add_attachment_rows(const AttachedNode &node, const Points &positions_a, const Points &positions_b,
+                         ConstraintRows &rows)
 {
+  const Eigen::Vector3d gap = attachment_gap(node, positions_a, positions_b);
   for (int axis = 0; axis < 3; ++axis)
   {
     const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);

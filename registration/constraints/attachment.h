@@ -29,5 +29,6 @@ std::vector<AttachedNode> bind_attachment(const Attachment &attachment, const st
 Eigen::Vector3d attachment_gap(const AttachedNode &node, const Points &positions_a, const Points &positions_b);
 
 /// Three rows, one an axis, that close the gap.
-void add_attachment_rows(const AttachedNode &node, const Eigen::Vector3d &gap, ConstraintRows &rows);
+void add_attachment_rows(const AttachedNode &node, const Points &positions_a, const Points &positions_b,
+                         ConstraintRows &rows);
 } // namespace pelvireg::registration
