@@ -89,8 +89,7 @@ void expect_rows_are_the_derivative(const AttachedNode &node, const Points &posi
     EXPECT_EQ(rows.gap(axis), -gap[axis]);
   const auto expect_equal = [&](int body, int index)
   {
-    EXPECT_LE((derivative_in_rows(rows, body, index) -
-               difference_quotient(node, positions_a, positions_b, body, index))
+    EXPECT_LE((derivative_in_rows(rows, body, index) - difference_quotient(node, positions_a, positions_b, body, index))
                   .cwiseAbs()
                   .maxCoeff(),
               1e-8)
@@ -174,8 +173,8 @@ TEST(Attachment, DoesNotDependOnTheOrderOfTheTrianglesNodes)
   Triangles triangles = pair.bodies[1].outer_triangles;
   for (auto triangle : triangles.rowwise())
     triangle = Eigen::RowVector3i(triangle[1], triangle[2], triangle[0]);
-  const std::vector<AttachedNode> reordered = bind_attachment({"nodes on block", 0, {0, 1, 2, 3}, 1, 0}, pair.bodies,
-                                                              TriangleTree(triangles, pair.rest(1)), 0);
+  const std::vector<AttachedNode> reordered =
+      bind_attachment({"nodes on block", 0, {0, 1, 2, 3}, 1, 0}, pair.bodies, TriangleTree(triangles, pair.rest(1)), 0);
   std::mt19937 random(17);
   const Points positions_a = shaken(pair.rest(0), 1, random), positions_b = shaken(pair.rest(1), 0.5, random);
   for (std::size_t k = 0; k < reordered.size(); ++k)
@@ -226,10 +225,10 @@ TEST(Attachment, AFlatTriangleGivesFiniteRowsWithoutAJump)
   expect_rows_are_the_derivative(node, pair.rest(0), squeezed(0.01));
   expect_rows_are_the_derivative(node, pair.rest(0), squeezed(0));
   for (const double part : {0.3, 0.1, 0.03, 0.0})
-    EXPECT_LE((attachment_gap(node, pair.rest(0), squeezed(part + 1e-9)) -
-               attachment_gap(node, pair.rest(0), squeezed(part)))
-                  .norm(),
-              1e-6)
+    EXPECT_LE(
+        (attachment_gap(node, pair.rest(0), squeezed(part + 1e-9)) - attachment_gap(node, pair.rest(0), squeezed(part)))
+            .norm(),
+        1e-6)
         << part;
 }
 
@@ -291,17 +290,16 @@ TEST(Attachment, ABlockTurnedByARightAngleTakesThePlateOverItAlong)
     ASSERT_EQ(summary.status, StepStatus::ok);
     EXPECT_LE(summary.attachment_residual, 0.01); // a step turns by 0.05: 1 mm of offset leaves 0.05^2 / 2 and less
   }
-  const Equilibrium equilibrium =
-      registration.settle({}, {.motion_mm = 1e-9, .force_newton = 1e-9, .max_steps = 400});
+  const Equilibrium equilibrium = registration.settle({}, {.motion_mm = 1e-9, .force_newton = 1e-9, .max_steps = 400});
   EXPECT_TRUE(equilibrium.is_reached) << equilibrium.last_step.largest_motion;
   EXPECT_LE(equilibrium.last_step.attachment_residual, 1e-12); // the rows' error is of second order in the motion
   for (const int body : {0, 1})
-    EXPECT_LE((registration.positions(body) -
-               turned(model.bodies[body].rest_positions, rotation(), Eigen::Vector3d::Zero()))
-                  .rowwise()
-                  .norm()
-                  .maxCoeff(),
-              1e-6)
+    EXPECT_LE(
+        (registration.positions(body) - turned(model.bodies[body].rest_positions, rotation(), Eigen::Vector3d::Zero()))
+            .rowwise()
+            .norm()
+            .maxCoeff(),
+        1e-6)
         << body;
 }
 } // namespace pelvireg::registration
