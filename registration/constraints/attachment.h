@@ -17,11 +17,11 @@ struct AttachedNode
   int body_a = 0, node_a = 0;
   int body_b = 0;
   Eigen::Vector3i nodes_b = Eigen::Vector3i::Zero();
-  Eigen::Vector3d weights =
-      Eigen::Vector3d::Zero(); ///< of the foot in the triangle's plane, which may lie outside; sum 1
-  double height = 0;           ///< over the foot, along the triangle's normal, mm
-  double least_area =
-      0; ///< twice the area below which the height shrinks with the area, mm^2: a flat triangle has no normal
+  /// Of the foot in the triangle's plane, which may lie outside the triangle; sum 1.
+  Eigen::Vector3d weights = Eigen::Vector3d::Zero();
+  double height = 0; ///< over the foot, along the triangle's normal, mm
+  /// Twice the area, mm^2, below which the height shrinks with the area: a flat triangle has no normal.
+  double least_area = 0;
   double compliance = 0; ///< mm/N, each axis
 };
 
@@ -34,7 +34,8 @@ std::vector<AttachedNode> bind_attachment(const Attachment &attachment, const st
 /// x_a - (place over b), mm.
 Eigen::Vector3d attachment_gap(const AttachedNode &node, const Points &positions_a, const Points &positions_b);
 
-/// Three rows, one an axis, that close the gap: its derivative. Without gap their forces balance, moments too.
+/// Three rows, one an axis, that close the gap; their Jacobian is its derivative. When it is closed, the forces on both
+/// bodies balance in force and moment.
 void add_attachment_rows(const AttachedNode &node, const Points &positions_a, const Points &positions_b,
                          ConstraintRows &rows);
 } // namespace pelvireg::registration
