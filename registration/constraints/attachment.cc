@@ -11,7 +11,7 @@ namespace pelvireg::registration
 namespace
 {
 constexpr double least_area_ratio = 0.05; ///< of the rest area: a triangle squeezed further loses its normal
-constexpr double least_shape = 1e-6;      ///< twice the area over the longest edge squared; flatter ones carry nothing
+constexpr double least_shape = 0.01;      ///< twice the area over the longest edge squared; flatter ones carry nothing
 
 struct Triangle
 {
