@@ -26,7 +26,7 @@ struct AttachedNode
 };
 
 /// Bind every node of the attachment to its nearest triangle of body b at rest, with no gap. `walls_of_b` holds the
-/// triangles that may carry an attachment, fitted to the rest positions; needles without area are passed over. Throws
+/// triangles that may carry an attachment, fitted to the rest positions; needles are passed over. Throws
 /// std::invalid_argument when none is left.
 std::vector<AttachedNode> bind_attachment(const Attachment &attachment, const std::vector<Body> &bodies,
                                           const TriangleTree &walls_of_b, double added_compliance);
