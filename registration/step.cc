@@ -216,8 +216,7 @@ void Registration::Implementation::linearise_constraints(StepSummary &summary)
       add_sliding_row(match.sliding, match.body, options.sliding_compliance, rows);
   summary.accepted_control_points = rows.size();
   for (const AttachedNode &node : attached_nodes)
-    add_attachment_rows(node, attachment_gap(node, bodies[node.body_a].positions(), bodies[node.body_b].positions()),
-                        rows);
+    add_attachment_rows(node, bodies[node.body_a].positions(), bodies[node.body_b].positions(), rows);
   for (const std::vector<HeldNode> &nodes : held_nodes)
     for (const HeldNode &node : nodes)
       add_held_rows(node, bodies[node.body].positions(), rows);

@@ -117,16 +117,26 @@ TEST(Registration, FollowsATranslatedOutlineInThePlane)
     EXPECT_LE(in_plane_error(node), 1);
 }
 
-TEST(Registration, HoldsTheAttachmentsToAMillionthOfAMillimetre)
+// An attached node turns with its triangle and rows are linear: a step leaves a gap of second order in its motion, the
+// next one closes it.
+TEST(Registration, HoldsTheAttachmentsToSecondOrderInAStepsMotion)
 {
   const Model model = two_organs_and_a_band();
+  const auto gap_after_one_step = [&](double part)
+  {
+    Registration registration;
+    registration.prepare(model, {});
+    return registration.update(moved_outlines(model, part * in_plane(1, 1))).attachment_residual;
+  };
+  EXPECT_NEAR(gap_after_one_step(0.01) / gap_after_one_step(0.1), 0.01, 0.001);
+
   Registration registration;
   registration.prepare(model, {});
   for (int step = 1; step <= 9; ++step)
   {
     const StepSummary summary = registration.update(moved_outlines(model, (step + 2) / 3 * in_plane(1, 1)));
     ASSERT_EQ(summary.status, StepStatus::ok);
-    EXPECT_LE(summary.attachment_residual, 1e-6);
+    EXPECT_LE(summary.attachment_residual, 1e-4); // 1.4 mm a position
   }
   const Points band_motion = registration.positions(2) - model.bodies[2].rest_positions;
   EXPECT_GT(band_motion.rowwise().norm().maxCoeff(), 1);

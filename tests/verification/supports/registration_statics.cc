@@ -87,16 +87,19 @@ Eigen::Matrix3d compliance_of_organ(const dataset::RegistrationModel &model, con
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n, n); // [K H^T; H 0]
   system.topLeftCorner(n_organ, n_organ) = stiffness(organ_solver);
   system.block(n_organ, n_organ, n_grid, n_grid) = stiffness(grid_solver);
-  const auto couple = [&](int row, int unknown, double weight)
-  { system(row, unknown) = system(unknown, row) = system(row, unknown) + weight; };
-  int row = n_organ + n_grid;
+  registration::ConstraintRows rows;
   for (const AttachedNode &node : attached)
-    for (int axis = 0; axis < 3; ++axis, ++row)
+    registration::add_attachment_rows(node, bodies[1].rest_positions, bodies[0].rest_positions, rows);
+  for (int row = 0; row < rows.size(); ++row)
+    for (const registration::RowEntry *entry = rows.begin(row); entry != rows.end(row); ++entry)
     {
-      couple(row, n_organ + grid_solver.first_unknown(node.node_a) + axis, 1);
-      for (int i = 0; i < 3; ++i)
-        if (const int first = organ_solver.first_unknown(node.nodes_b[i]); first >= 0)
-          couple(row, first + axis, -node.weights[i]);
+      const BodySolver &solver = entry->body == 0 ? organ_solver : grid_solver;
+      const int unknown = solver.first_unknown(entry->node) + (entry->body == 0 ? 0 : n_organ);
+      if (solver.first_unknown(entry->node) < 0)
+        continue;
+      const int multiplier = n_organ + n_grid + row;
+      system.block<1, 3>(multiplier, unknown) += entry->jacobian.transpose();
+      system.block<3, 1>(unknown, multiplier) += entry->jacobian;
     }
 
   Eigen::MatrixXd load = Eigen::MatrixXd::Zero(n, 3);
