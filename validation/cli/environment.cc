@@ -1,8 +1,6 @@
 #include "validation/cli/environment.h"
 
-#include <climits>
 #include <cstdlib>
-#include <malloc.h>
 #include <unistd.h>
 
 namespace pelvireg::cli
@@ -15,11 +13,5 @@ void ensure_single_threaded_libraries(char **argv)
   ::setenv("OMP_THREAD_LIMIT", "1", keep_what_is_set);
   ::setenv("OPENBLAS_NUM_THREADS", "1", keep_what_is_set);
   ::execv("/proc/self/exe", argv);
-}
-
-void keep_freed_memory()
-{
-  ::mallopt(M_MMAP_MAX, 0); // what is mapped for itself is always given back
-  ::mallopt(M_TRIM_THRESHOLD, INT_MAX);
 }
 } // namespace pelvireg::cli

@@ -5,7 +5,6 @@
 #include "synthetic/dataset/atomic_file.h"
 #include "synthetic/dataset/error.h"
 #include "synthetic/observation/observe.h"
-#include "validation/cli/environment.h"
 #include "validation/cli/register_stage.h"
 #include "validation/cli/self_generated_stage.h"
 #include "validation/cli/sha256.h"
@@ -124,7 +123,6 @@ void make_truth(ResultDirectory &directory, int jobs, const std::string &log_fil
                        throw InputError(fmt::format("The log '{}' cannot be written; give another name.", log_file));
                      options.log = [&log](const std::string &line) { log << line << std::endl; };
                    }
-                   keep_freed_memory();
                    dataset::Truth truth = reference_fe::solve_reference(anatomy, options);
                    truth.discretisation_error = error_bar;
                    save(truth, directory.path() / "truth.h5");

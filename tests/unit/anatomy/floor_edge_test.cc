@@ -1,4 +1,5 @@
 // The pelvic floor's bony edge: sharp, or turned down over the bone with a radius.
+#include "synthetic/dataset/error.h"
 #include "tests/unit/anatomy/cases.h"
 
 #include <Eigen/Dense>
@@ -87,7 +88,7 @@ TEST(FloorEdge, HasARadiusFromZeroOn)
 {
   EXPECT_NO_THROW(floor_with_edge(0));
   EXPECT_NO_THROW(floor_with_edge(1e-3));
-  EXPECT_THROW(floor_with_edge(-1e-3), std::exception);
+  EXPECT_THROW(floor_with_edge(-1e-3), InputError);
 }
 } // namespace
 } // namespace pelvireg::test

@@ -114,19 +114,21 @@ void write_steps(const Lattice &lattice, const std::vector<double> &factors, Dec
 
 int main(int argc, char **argv)
 {
-  if (argc < 5)
+  const bool is_complete = argc >= 5;
+  const std::string element = is_complete ? argv[3] : "";
+  const Lattice lattice{is_complete ? std::atoi(argv[1]) : 0, is_complete ? std::atoi(argv[2]) : 0};
+  if (lattice.n1 < 1 || lattice.n2 < 1 || (element != "C3D20R" && element != "C3D20"))
   {
     fmt::print(stderr, "usage: pinched_cylinder_deck N1 N2 C3D20R|C3D20 FACTOR [FACTOR ...] > FILE.inp\n"
                        "example: pinched_cylinder_deck 40 40 C3D20R 0.05 0.075 0.1 0.125 > cylinder.inp\n");
     return 2;
   }
-  const Lattice lattice{std::atoi(argv[1]), std::atoi(argv[2])};
   std::vector<double> factors;
   for (int i = 4; i < argc; ++i)
     factors.push_back(std::atof(argv[i]));
   DeckText deck;
   write_nodes(lattice, deck);
-  write_bricks(lattice, argv[3], deck);
+  write_bricks(lattice, element, deck);
   write_supports(lattice, deck);
   write_steps(lattice, factors, deck);
   std::fputs(deck.take().c_str(), stdout);
