@@ -27,6 +27,11 @@ std::string likely_cause(NewtonStatus status)
     return "a wall or bar that snaps, or contact that does not settle";
   }
 }
+int n_factorisations(const NewtonResult &result)
+{
+  return static_cast<int>(std::count_if(result.iterations.begin(), result.iterations.end(),
+                                        [](const NewtonIteration &iteration) { return !iteration.is_chord; }));
+}
 } // namespace
 
 LoadStepper::LoadStepper(PelvisModel &model, const LoadStepperOptions &options)
@@ -109,21 +114,23 @@ bool LoadStepper::try_pressure(double ratio, double pressure, StepEffort &effort
 
 bool LoadStepper::try_step(Eigen::VectorXd trial, double largest_displacement, StepEffort &effort)
 {
-  const int iterations_before = effort.newton_iterations;
+  const StepEffort before = effort;
   const bool is_solved = solve(trial, effort);
   const double motion = motion_between(current_.solution, trial);
   if (options_.log)
-    options_.log(fmt::format("  {} displacement {:.4f} mm, pressure {:.6f} MPa, motion {:.3f} mm, {} iterations, "
-                             "residual {:.1e} N {}",
-                             is_solved ? "step to" : "failed at", model_.probe->mean_displacement(trial),
-                             trial[model_.pressure_unknown], motion, effort.newton_iterations - iterations_before,
-                             last_result_.residual, last_result_.message));
+    options_.log(fmt::format(
+        "  {} displacement {:.4f} mm, pressure {:.6f} MPa, motion {:.3f} mm, {} iterations, "
+        "residual {:.1e} N {}",
+        is_solved ? "step to" : "failed at", model_.probe->mean_displacement(trial), trial[model_.pressure_unknown],
+        motion, effort.newton_iterations - before.newton_iterations, last_result_.residual, last_result_.message));
   if (!is_solved || !(motion <= options_.largest_motion) ||
       model_.probe->mean_displacement(trial) > largest_displacement)
     return false;
   accept(std::move(trial));
-  const bool is_as_long_as_aimed = motion >= options_.reached_motion * motion_;
-  if (is_as_long_as_aimed && effort.newton_iterations - iterations_before <= options_.easy_iterations)
+  const bool is_start_over = current_.load_parameter > 0;
+  const bool is_as_long_as_aimed =
+      motion >= (is_start_over ? options_.reached_motion : options_.settled_motion) * motion_;
+  if (is_as_long_as_aimed && effort.factorisations - before.factorisations <= options_.easy_factorisations)
     motion_ = std::min(1.15 * motion_, options_.motion);
   return true;
 }
@@ -167,6 +174,17 @@ void LoadStepper::solve_equilibrium(Eigen::VectorXd &trial, StepEffort &effort)
   newton.residual_tolerance = options_.residual_tolerance;
   newton.max_iterations = options_.max_iterations;
   newton.max_halvings = options_.max_halvings;
+  newton.chord_increment = options_.chord_increment;
+  int n_changed_pairs = 0;
+  newton.revise_increment = options_.search_increment;
+  if (model_.contact)
+    newton.revise = [&](const Eigen::VectorXd &x)
+    {
+      const bool may_search = n_changed_pairs < options_.max_changed_pairs;
+      const bool has_changed = may_search && model_.contact->search(x);
+      n_changed_pairs += has_changed;
+      return has_changed;
+    };
   newton.log = options_.log;
   for (const bool mixed : {true, false})
   {
@@ -174,6 +192,7 @@ void LoadStepper::solve_equilibrium(Eigen::VectorXd &trial, StepEffort &effort)
       shell->use_mixed_integration_points(mixed);
     last_result_ = solve_newton(model_.system, trial, newton);
     effort.newton_iterations += static_cast<int>(last_result_.iterations.size());
+    effort.factorisations += n_factorisations(last_result_);
     effort.residual = last_result_.residual;
     if (last_result_.converged())
       return;

@@ -19,12 +19,16 @@ struct LoadStepperOptions
   double first_motion = 0.8;        ///< mm, largest motion of a surface point that the first steps aim at
   double motion = 1.4;              ///< mm, to which it grows while steps are easy
   double largest_motion = 2.8;      ///< mm, a step that moved any surface point farther is thrown away and cut
-  int easy_iterations = 4;          ///< of Newton's method: a step with no more lets the next one be longer,
-  double reached_motion = 0.8;      ///< if it was as long as this share of the motion aimed at
+  int easy_factorisations = 3;      ///< a step with no more of them lets the next one be longer,
+  double reached_motion = 0.5;      ///< if it was as long as this share of the motion aimed at (equal parts are), or
+  double settled_motion = 0.8;      ///< this, in start(): its steps are short, and so easy, for other reasons too
   double least_motion = 1e-3;       ///< mm, steps that aim at less: the stepper gives up
   double close_residual = 0.1;      ///< N, a failed solution below it is not begun anew
   int max_iterations = 12;          ///< of Newton's method, a solution
   int max_halvings = 2;             ///< a solution that needs shorter steps is lost: a shorter load step is cheaper
+  double chord_increment = 0.01;    ///< NewtonOptions::chord_increment
+  double search_increment = 0.12;   ///< from Newton steps no longer than this on, contact is searched again at once,
+  int max_changed_pairs = 4;        ///< until it has found other pairs so many times
   int max_contact_searches = 6;     ///< repetitions of a step until the pairs in contact settle
   std::function<void(const std::string &)> log = {}; ///< one line a step and a Newton iteration; may be empty
 };
@@ -34,6 +38,7 @@ struct StepEffort
 {
   double residual = 0; ///< N, of the accepted state
   int newton_iterations = 0;
+  int factorisations = 0; ///< the iterations that were no chords
   int cuts = 0;
   int unsettled_steps = 0; ///< accepted although contact pairs still changed after max_contact_searches
 };

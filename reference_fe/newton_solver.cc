@@ -4,26 +4,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace pelvireg::reference_fe
 {
 namespace
 {
-/// Try solution + step_length * increment, halving. Leaves the system assembled with tangent at the accepted point.
+/// A chord is this much shorter than the step before, or it is not taken: where the factors of an earlier tangent
+/// still contract (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 2.1), they do so at once.
+constexpr double chord_contraction = 0.1;
+
+double largest(const Eigen::VectorXd &increment)
+{
+  return increment.lpNorm<Eigen::Infinity>();
+}
+
+/// Try solution + step_length * increment, halving. Leaves the system assembled at the accepted point, with the tangent
+/// when it is `wanted` there.
 NewtonStatus take_step(EquilibriumSystem &system, Eigen::VectorXd &solution, const Eigen::VectorXd &increment,
-                       const NewtonOptions &options, double &step_length)
+                       bool wanted, const NewtonOptions &options, double &step_length)
 {
   const double merit_before = system.residual_merit();
   system.linearise_at(solution);
   for (int halving = 0; halving <= options.max_halvings; ++halving, step_length *= 0.5)
   {
     const Eigen::VectorXd trial = solution + step_length * increment;
-    // The full step is nearly always accepted: its tangent is wanted next.
-    system.assemble(trial, halving == 0);
+    // The full step is nearly always accepted: its tangent comes at once.
+    system.assemble(trial, wanted && halving == 0);
     const double merit = system.residual_merit();
     if (std::isfinite(merit) && merit <= options.max_merit_growth * merit_before)
     {
-      if (halving > 0)
+      if (wanted && halving > 0)
         system.assemble(trial, true);
       solution = trial;
       return NewtonStatus::converged;
@@ -31,6 +42,23 @@ NewtonStatus take_step(EquilibriumSystem &system, Eigen::VectorXd &solution, con
   }
   const bool finite = std::isfinite(system.residual_merit());
   return finite ? NewtonStatus::no_decrease : NewtonStatus::not_finite;
+}
+
+/// Whether the factors of the last step may serve for the next.
+bool is_close(const std::vector<NewtonIteration> &iterations, double chord_increment)
+{
+  if (iterations.empty())
+    return false;
+  const NewtonIteration &last = iterations.back();
+  return last.step_length == 1 && last.increment <= chord_increment && !last.is_revised;
+}
+
+std::string describe(const std::vector<NewtonIteration> &iterations)
+{
+  const NewtonIteration &last = iterations.back();
+  return fmt::format("    iteration {:2d}: residual {:.3e} N, increment {:.3e}, step length {:.3g}{}{}",
+                     iterations.size(), last.residual, last.increment, last.step_length,
+                     last.is_chord ? ", earlier factors" : "", last.is_revised ? ", other pairs in contact" : "");
 }
 
 std::string explain(NewtonStatus status, const EquilibriumSystem &system, double residual)
@@ -51,6 +79,29 @@ std::string explain(NewtonStatus status, const EquilibriumSystem &system, double
   }
   return "";
 }
+/// The step from `solution`, at which the system is assembled (with its tangent or not): by the factors of the last
+/// iteration where they serve, else by new ones. Nothing when the tangent is singular.
+std::optional<Eigen::VectorXd> next_increment(EquilibriumSystem &system, const Eigen::VectorXd &solution,
+                                              const std::vector<NewtonIteration> &iterations, bool has_tangent,
+                                              double chord_increment, bool &is_chord)
+{
+  is_chord = is_close(iterations, chord_increment);
+  if (is_chord)
+  {
+    Eigen::VectorXd chord = system.solve(-system.residual());
+    is_chord = largest(chord) <= chord_contraction * iterations.back().increment;
+    if (is_chord)
+      return chord;
+  }
+  if (!has_tangent)
+    system.assemble(solution, true);
+  if (!system.factorise())
+    return std::nullopt;
+  Eigen::VectorXd increment = system.solve(-system.residual());
+  if (!std::isfinite(largest(increment)))
+    return std::nullopt;
+  return increment;
+}
 } // namespace
 
 NewtonResult solve_newton(EquilibriumSystem &system, Eigen::VectorXd &solution, const NewtonOptions &options)
@@ -66,6 +117,7 @@ NewtonResult solve_newton(EquilibriumSystem &system, Eigen::VectorXd &solution, 
 
   system.linearise_at(solution);
   system.assemble(solution, true);
+  bool has_tangent = true;
   while (true)
   {
     const double residual = system.residual_norm();
@@ -77,21 +129,24 @@ NewtonResult solve_newton(EquilibriumSystem &system, Eigen::VectorXd &solution, 
       return finish(NewtonStatus::converged);
     if (static_cast<int>(result.iterations.size()) >= options.max_iterations)
       return finish(NewtonStatus::too_many_iterations);
-    if (!system.factorise())
-      return finish(NewtonStatus::singular);
 
-    const Eigen::VectorXd increment = system.solve(-system.residual());
-    const double largest = increment.lpNorm<Eigen::Infinity>();
-    if (!std::isfinite(largest))
+    NewtonIteration now{.residual = residual};
+    const std::optional<Eigen::VectorXd> increment =
+        next_increment(system, solution, result.iterations, has_tangent, options.chord_increment, now.is_chord);
+    if (!increment)
       return finish(NewtonStatus::singular);
-    double step_length = 1;
-    if (options.max_increment > 0 && largest > options.max_increment)
-      step_length = options.max_increment / largest;
-    const NewtonStatus step = take_step(system, solution, increment, options, step_length);
-    result.iterations.push_back({residual, step_length * largest, step_length});
+    if (options.max_increment > 0 && largest(*increment) > options.max_increment)
+      now.step_length = options.max_increment / largest(*increment);
+    const double length = now.step_length * largest(*increment);
+    now.is_revised =
+        options.revise && length <= options.revise_increment && options.revise(solution + now.step_length * *increment);
+    // What comes after a short step is a chord or the end, likely.
+    has_tangent = length > options.chord_increment || now.is_revised;
+    const NewtonStatus step = take_step(system, solution, *increment, has_tangent, options, now.step_length);
+    now.increment = now.step_length * largest(*increment);
+    result.iterations.push_back(now);
     if (options.log)
-      options.log(fmt::format("    iteration {:2d}: residual {:.3e} N, increment {:.3e}, step length {:.3g}",
-                              result.iterations.size(), residual, step_length * largest, step_length));
+      options.log(describe(result.iterations));
     if (step != NewtonStatus::converged)
       return finish(step);
   }

@@ -21,6 +21,13 @@ struct NewtonOptions
   int max_halvings = 8;
   /// The step is shortened so that no unknown changes by more than this in one iteration; 0: no limit.
   double max_increment = 0;
+  /// After a full step no longer than this its factors serve again while they contract (modified Newton): a chord costs
+  /// a solve, a tangent its factorisation. 0: every iteration factorises.
+  double chord_increment = 0;
+  /// Called with the trial solution of a step no longer than revise_increment, before its residual is formed: here
+  /// terms may change what they hold frozen (pairs in contact). True: they see something else, and no chord follows.
+  std::function<bool(const Eigen::VectorXd &)> revise = {};
+  double revise_increment = 0;
   /// One line an iteration; may be empty.
   std::function<void(const std::string &)> log = {};
 };
@@ -36,9 +43,11 @@ enum class NewtonStatus
 
 struct NewtonIteration
 {
-  double residual = 0;    ///< N, largest scaled free residual before the step
-  double increment = 0;   ///< largest change of an unknown in the step
-  double step_length = 1; ///< of the line search
+  double residual = 0;     ///< N, largest scaled free residual before the step
+  double increment = 0;    ///< largest change of an unknown in the step
+  double step_length = 1;  ///< of the line search
+  bool is_chord = false;   ///< with the factors of an earlier iteration
+  bool is_revised = false; ///< NewtonOptions::revise changed the terms at its end
 };
 
 struct NewtonResult

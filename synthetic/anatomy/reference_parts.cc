@@ -220,8 +220,8 @@ dataset::ReferenceModel make_reference(const Parameters &p)
       make_shell("vagina", material("vagina"), vagina_charts(p.vagina, p.uterus, size("vagina")), p.vagina.wall, -0.5));
   model.shells.push_back(
       make_shell("rectum", material("rectum"), rectum_charts(p.rectum, size("rectum")), p.rectum.wall, -0.5));
-  model.shells.push_back(make_shell("pelvic_floor", material("pelvic_floor"),
-                                    floor_charts(p.pelvic_floor, size("pelvic_floor")), p.pelvic_floor.thickness, 0));
+  const std::vector<Chart> floor = floor_charts(p.pelvic_floor, size("pelvic_floor"));
+  model.shells.push_back(make_shell("pelvic_floor", material("pelvic_floor"), floor, p.pelvic_floor.thickness, 0));
   for (dataset::ReferenceShell &shell : model.shells)
   {
     const std::vector<Integers> loops = boundary_loops(shell.cells);
@@ -235,7 +235,7 @@ dataset::ReferenceModel make_reference(const Parameters &p)
         shell.cavity = filling->second.control;
       continue;
     }
-    shell.fixed_nodes = held_floor_nodes(shell, loops, floor_charts(p.pelvic_floor, size("pelvic_floor")).front());
+    shell.fixed_nodes = held_floor_nodes(shell, loops, floor.front());
   }
   model.solids.push_back(
       make_solid("uterus", material("uterus"), uterus_charts(p.uterus, p.vagina, size("uterus")), size("uterus")));

@@ -22,6 +22,7 @@ using dataset::Points;
 using json = nlohmann::ordered_json;
 
 constexpr double quantum = 0.01;       ///< mm
+constexpr double bar_quantum = 0.05;   ///< mm: bars are drawn, not measured
 constexpr double error_quantum = 0.04; ///< mm: 10.2 mm at most
 
 void add_surface(Payload &payload, const std::string &name, const MovingSurface &organ)
@@ -80,7 +81,7 @@ json add_bars(Payload &payload, const dataset::Truth &truth)
     for (std::size_t i = 0; i < truss.positions.size(); ++i)
       frames[i + 1].middleRows(2 * bar, 2) = truss.positions[i];
   }
-  payload.add("bars", pack_positions(frames, quantum));
+  payload.add("bars", pack_positions(frames, bar_quantum));
   return n;
 }
 
@@ -153,7 +154,10 @@ json view_data(const ReportInputs &inputs, const std::vector<MovingSurface> &tru
       add_surface(payload, "estimate/" + place, estimate);
       add_errors(payload, place, truth[static_cast<std::size_t>(o)], estimate, inputs.evaluation.steps_per_increment);
     }
-  json view = {{"quantum_mm", quantum}, {"error_quantum_mm", error_quantum}, {"truth_nodes", node_counts(truth)}};
+  json view = {{"quantum_mm", quantum},
+               {"bar_quantum_mm", bar_quantum},
+               {"error_quantum_mm", error_quantum},
+               {"truth_nodes", node_counts(truth)}};
   view["estimate_nodes"] = json::array();
   for (const ConditionSurfaces &condition : conditions)
     view["estimate_nodes"].push_back(node_counts(condition.organs));

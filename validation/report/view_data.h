@@ -18,7 +18,7 @@ namespace pelvireg::report
 ///   error/c/o                     distance of each node of the truth at step s to the estimate at step s (pack_values,
 ///                                 `error_quantum_mm`), one frame a step
 ///   error_back/c/o                distance of each node of the estimate to the truth, likewise
-///   bars                          ends of the truth's bars at rest and at each increment (pack_positions)
+///   bars                          ends of the truth's bars at rest and at each increment (`bar_quantum_mm`)
 nlohmann::ordered_json view_data(const ReportInputs &inputs, const std::vector<MovingSurface> &truth,
                                  const std::vector<ConditionSurfaces> &conditions, Payload &payload);
 } // namespace pelvireg::report

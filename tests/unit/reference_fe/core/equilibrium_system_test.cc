@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -99,6 +100,74 @@ TEST(EquilibriumSystem, NewtonConvergesQuadratically)
   ASSERT_GE(it.size(), 3u);
   const double last = it[it.size() - 1].residual, before = it[it.size() - 2].residual;
   EXPECT_LT(last, 10 * before * before);
+}
+
+int n_chords(const NewtonResult &result)
+{
+  return static_cast<int>(std::count_if(result.iterations.begin(), result.iterations.end(),
+                                        [](const NewtonIteration &iteration) { return iteration.is_chord; }));
+}
+
+TEST(EquilibriumSystem, ChordsReachTheSameSolutionWithFewerFactorisations)
+{
+  EquilibriumSystem newton = chain(10, 8.0, 1), modified = chain(10, 8.0, 1);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(newton.n_unknowns()), y = x;
+  const NewtonResult with_tangents = solve_newton(newton, x, {.residual_tolerance = 1e-9});
+  const NewtonResult with_chords = solve_newton(modified, y, {.residual_tolerance = 1e-9, .chord_increment = 0.5});
+  ASSERT_TRUE(with_tangents.converged() && with_chords.converged());
+  EXPECT_EQ(n_chords(with_tangents), 0);
+  EXPECT_GE(n_chords(with_chords), 1);
+  EXPECT_LT(with_chords.iterations.size() - n_chords(with_chords), with_tangents.iterations.size());
+  EXPECT_LE(with_chords.residual, 1e-9);
+  EXPECT_LT((x - y).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(EquilibriumSystem, ChordIsOnlyTakenWhereItContracts)
+{
+  // From a stretch of 1 to one of 10 the slope of the cubic spring grows from 4 to 301 stiffnesses: chords are as long
+  // as the steps before, whatever length is allowed.
+  EquilibriumSystem system = chain(1, 10.0, 1);
+  system.fix(2);
+  Eigen::VectorXd x = Eigen::Vector3d(0, 1, 3.0 * (10 + 1000)); // the load is given, the stretch is sought
+  const NewtonResult result = solve_newton(
+      system, x, {.residual_tolerance = 1e-7, .max_iterations = 60, .max_merit_growth = 1e9, .chord_increment = 1e9});
+  ASSERT_TRUE(result.converged()) << result.message;
+  EXPECT_NEAR(x[1], 10.0, 1e-8);
+  for (std::size_t i = 1; i < result.iterations.size(); ++i)
+    if (result.iterations[i].is_chord)
+    {
+      EXPECT_LE(result.iterations[i].increment, 0.1 * result.iterations[i - 1].increment);
+    }
+  EXPECT_LT(n_chords(result), static_cast<int>(result.iterations.size()) / 2);
+}
+
+TEST(EquilibriumSystem, TermsAreRevisedAtShortStepsAndAChordNeverFollows)
+{
+  EquilibriumSystem system = chain(10, 8.0, 1);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(system.n_unknowns());
+  NewtonOptions options{.residual_tolerance = 1e-9, .chord_increment = 0.5, .revise_increment = 0.5};
+  int n_calls = 0;
+  Eigen::VectorXd seen;
+  options.revise = [&](const Eigen::VectorXd &trial)
+  {
+    seen = trial;
+    return ++n_calls == 1;
+  };
+  const NewtonResult result = solve_newton(system, x, options);
+  ASSERT_TRUE(result.converged()) << result.message;
+  EXPECT_EQ(seen, x); // the last trial is the solution
+  int n_short = 0, n_revised = 0;
+  for (std::size_t i = 0; i < result.iterations.size(); ++i)
+  {
+    n_short += result.iterations[i].increment <= 0.5;
+    if (!result.iterations[i].is_revised)
+      continue;
+    ++n_revised;
+    ASSERT_LT(i + 1, result.iterations.size());
+    EXPECT_FALSE(result.iterations[i + 1].is_chord);
+  }
+  EXPECT_EQ(n_calls, n_short);
+  EXPECT_EQ(n_revised, 1);
 }
 
 TEST(EquilibriumSystem, OneAndTwoThreadsGiveTheSameBytes)

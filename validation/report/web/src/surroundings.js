@@ -45,7 +45,7 @@ export class Surroundings {
     this.controlPoints = cloud('#111', 5 * devicePixelRatio);
     this.attachments = cloud('#D55E00', 5 * devicePixelRatio);
     this.bars = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: '#8aa6bd' }));
-    this.barFrames = data.has('bars') ? unpackPositions(data.part('bars'), 2 * this.view.bars, this.view.quantum_mm) : null;
+    this.barFrames = data.has('bars') ? unpackPositions(data.part('bars'), 2 * this.view.bars, this.view.bar_quantum_mm) : null;
     this.mark = new Mesh(new SphereGeometry(2, 24, 16), new MeshBasicMaterial({ color: '#ff2d95' }));
     this.mark.visible = false;
     scene.add(this.plane, this.controlPoints, this.attachments, this.bars, this.mark);
