@@ -202,7 +202,7 @@ Eigen::VectorXd EquilibriumSystem::solve(const Eigen::VectorXd &rhs) const
   for (int i = 0; i < n_unknowns(); ++i)
     if (free_index_[i] >= 0)
       free_rhs[free_index_[i]] = rhs[i];
-  const Eigen::VectorXd free_x = lu_.solve(tangent_, free_rhs);
+  const Eigen::VectorXd free_x = lu_.solve(free_rhs);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n_unknowns());
   for (int i = 0; i < n_unknowns(); ++i)
     if (free_index_[i] >= 0)

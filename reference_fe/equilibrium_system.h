@@ -62,7 +62,8 @@ public:
 
   /// Factorise the last assembled tangent (free rows and columns). False: singular or not finite.
   bool factorise();
-  /// x with K x = rhs over the free rows; zero at the fixed unknowns. Both have n_unknowns() entries.
+  /// x with K x = rhs over the free rows, K the tangent factorised last, which may be an earlier one than the last
+  /// assembled; zero at the fixed unknowns. Both have n_unknowns() entries.
   Eigen::VectorXd solve(const Eigen::VectorXd &rhs) const;
   /// Tangent over the free unknowns, numbered in ascending order of the unknowns (tests, inertia).
   const SparseMatrix &tangent() const { return tangent_; }

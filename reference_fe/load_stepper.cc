@@ -175,16 +175,16 @@ void LoadStepper::solve_equilibrium(Eigen::VectorXd &trial, StepEffort &effort)
   newton.max_iterations = options_.max_iterations;
   newton.max_halvings = options_.max_halvings;
   newton.chord_increment = options_.chord_increment;
-  int n_changed_pairs = 0;
   newton.revise_increment = options_.search_increment;
-  if (model_.contact)
-    newton.revise = [&](const Eigen::VectorXd &x)
-    {
-      const bool may_search = n_changed_pairs < options_.max_changed_pairs;
-      const bool has_changed = may_search && model_.contact->search(x);
-      n_changed_pairs += has_changed;
-      return has_changed;
-    };
+  // What differs by less than search() tells would go to and fro for ever: the first search without a change is the
+  // last.
+  int searches_left = model_.contact ? options_.max_contact_searches : 0;
+  newton.revise = [&](const Eigen::VectorXd &x)
+  {
+    const bool has_changed = searches_left > 0 && model_.contact->search(x);
+    searches_left = has_changed ? searches_left - 1 : 0;
+    return has_changed;
+  };
   newton.log = options_.log;
   for (const bool mixed : {true, false})
   {

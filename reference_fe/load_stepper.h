@@ -27,9 +27,8 @@ struct LoadStepperOptions
   int max_iterations = 12;          ///< of Newton's method, a solution
   int max_halvings = 2;             ///< a solution that needs shorter steps is lost: a shorter load step is cheaper
   double chord_increment = 0.01;    ///< NewtonOptions::chord_increment
-  double search_increment = 0.12;   ///< from Newton steps no longer than this on, contact is searched again at once,
-  int max_changed_pairs = 4;        ///< until it has found other pairs so many times
-  int max_contact_searches = 6;     ///< repetitions of a step until the pairs in contact settle
+  double search_increment = 0.12;   ///< from Newton steps no longer than this on, pairs in contact are searched anew
+  int max_contact_searches = 6;     ///< in a solution, and repetitions of it, until the pairs settle
   std::function<void(const std::string &)> log = {}; ///< one line a step and a Newton iteration; may be empty
 };
 

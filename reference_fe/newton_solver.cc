@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace pelvireg::reference_fe
 {
@@ -20,9 +21,9 @@ double largest(const Eigen::VectorXd &increment)
 }
 
 /// Try solution + step_length * increment, halving. Leaves the system assembled at the accepted point, with the tangent
-/// when it is `wanted` there.
+/// when that is wanted.
 NewtonStatus take_step(EquilibriumSystem &system, Eigen::VectorXd &solution, const Eigen::VectorXd &increment,
-                       bool wanted, const NewtonOptions &options, double &step_length)
+                       bool with_tangent, const NewtonOptions &options, double &step_length)
 {
   const double merit_before = system.residual_merit();
   system.linearise_at(solution);
@@ -30,11 +31,11 @@ NewtonStatus take_step(EquilibriumSystem &system, Eigen::VectorXd &solution, con
   {
     const Eigen::VectorXd trial = solution + step_length * increment;
     // The full step is nearly always accepted: its tangent comes at once.
-    system.assemble(trial, wanted && halving == 0);
+    system.assemble(trial, with_tangent && halving == 0);
     const double merit = system.residual_merit();
     if (std::isfinite(merit) && merit <= options.max_merit_growth * merit_before)
     {
-      if (wanted && halving > 0)
+      if (with_tangent && halving > 0)
         system.assemble(trial, true);
       solution = trial;
       return NewtonStatus::converged;
@@ -79,19 +80,23 @@ std::string explain(NewtonStatus status, const EquilibriumSystem &system, double
   }
   return "";
 }
-/// The step from `solution`, at which the system is assembled (with its tangent or not): by the factors of the last
-/// iteration where they serve, else by new ones. Nothing when the tangent is singular.
-std::optional<Eigen::VectorXd> next_increment(EquilibriumSystem &system, const Eigen::VectorXd &solution,
-                                              const std::vector<NewtonIteration> &iterations, bool has_tangent,
-                                              double chord_increment, bool &is_chord)
+
+struct Increment
 {
-  is_chord = is_close(iterations, chord_increment);
-  if (is_chord)
+  Eigen::VectorXd value;
+  bool is_chord = false;
+};
+
+/// The step from `solution`, at which the system is assembled, with its tangent or not: by the factors of the last
+/// iteration where they serve, else by new ones. Nothing when the tangent is singular.
+std::optional<Increment> next_increment(EquilibriumSystem &system, const Eigen::VectorXd &solution, bool has_tangent,
+                                        const std::vector<NewtonIteration> &iterations, double chord_increment)
+{
+  if (is_close(iterations, chord_increment))
   {
     Eigen::VectorXd chord = system.solve(-system.residual());
-    is_chord = largest(chord) <= chord_contraction * iterations.back().increment;
-    if (is_chord)
-      return chord;
+    if (largest(chord) <= chord_contraction * iterations.back().increment)
+      return Increment{std::move(chord), true};
   }
   if (!has_tangent)
     system.assemble(solution, true);
@@ -100,7 +105,7 @@ std::optional<Eigen::VectorXd> next_increment(EquilibriumSystem &system, const E
   Eigen::VectorXd increment = system.solve(-system.residual());
   if (!std::isfinite(largest(increment)))
     return std::nullopt;
-  return increment;
+  return Increment{std::move(increment), false};
 }
 } // namespace
 
@@ -130,20 +135,21 @@ NewtonResult solve_newton(EquilibriumSystem &system, Eigen::VectorXd &solution, 
     if (static_cast<int>(result.iterations.size()) >= options.max_iterations)
       return finish(NewtonStatus::too_many_iterations);
 
-    NewtonIteration now{.residual = residual};
-    const std::optional<Eigen::VectorXd> increment =
-        next_increment(system, solution, result.iterations, has_tangent, options.chord_increment, now.is_chord);
+    const std::optional<Increment> increment =
+        next_increment(system, solution, has_tangent, result.iterations, options.chord_increment);
     if (!increment)
       return finish(NewtonStatus::singular);
-    if (options.max_increment > 0 && largest(*increment) > options.max_increment)
-      now.step_length = options.max_increment / largest(*increment);
-    const double length = now.step_length * largest(*increment);
-    now.is_revised =
-        options.revise && length <= options.revise_increment && options.revise(solution + now.step_length * *increment);
+    const double full_length = largest(increment->value);
+    NewtonIteration now{.residual = residual, .is_chord = increment->is_chord};
+    if (options.max_increment > 0 && full_length > options.max_increment)
+      now.step_length = options.max_increment / full_length;
+    const double length = now.step_length * full_length;
+    now.is_revised = options.revise && length <= options.revise_increment &&
+                     options.revise(solution + now.step_length * increment->value);
     // What comes after a short step is a chord or the end, likely.
     has_tangent = length > options.chord_increment || now.is_revised;
-    const NewtonStatus step = take_step(system, solution, *increment, has_tangent, options, now.step_length);
-    now.increment = now.step_length * largest(*increment);
+    const NewtonStatus step = take_step(system, solution, increment->value, has_tangent, options, now.step_length);
+    now.increment = now.step_length * full_length;
     result.iterations.push_back(now);
     if (options.log)
       options.log(describe(result.iterations));

@@ -76,11 +76,12 @@ bool SparseLu::factorise(const SparseMatrix &matrix)
   return status == UMFPACK_OK;
 }
 
-Eigen::VectorXd SparseLu::solve(const SparseMatrix &matrix, const Eigen::VectorXd &rhs) const
+Eigen::VectorXd SparseLu::solve(const Eigen::VectorXd &rhs) const
 {
-  Eigen::VectorXd x(matrix.n);
-  const int status = umfpack_di_solve(UMFPACK_A, matrix.column_start.data(), matrix.row.data(), matrix.value.data(),
-                                      x.data(), rhs.data(), factors_->numeric, factors_->control, factors_->info);
+  Eigen::VectorXd x(rhs.size());
+  // The matrix itself would only be asked for by a refinement.
+  const int status = umfpack_di_solve(UMFPACK_A, nullptr, nullptr, nullptr, x.data(), rhs.data(), factors_->numeric,
+                                      factors_->control, factors_->info);
   if (status != UMFPACK_OK && status != UMFPACK_WARNING_singular_matrix)
     throw ComputationError("the solve with the factorised tangent failed with UMFPACK status " +
                            std::to_string(status));

@@ -19,8 +19,8 @@ public:
   void analyse(const SparseMatrix &matrix);
   /// Numeric phase. Returns false when the matrix is singular or not finite.
   bool factorise(const SparseMatrix &matrix);
-  /// x with A x = rhs, with iterative refinement. `matrix` must be the one factorised last.
-  Eigen::VectorXd solve(const SparseMatrix &matrix, const Eigen::VectorXd &rhs) const;
+  /// x with A x = rhs, A the matrix factorised last.
+  Eigen::VectorXd solve(const Eigen::VectorXd &rhs) const;
   /// Entries of L and U: the memory is 12 bytes each.
   double n_factor_entries() const;
 

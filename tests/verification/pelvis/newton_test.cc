@@ -47,6 +47,48 @@ TEST(PelvisNewton, ConvergesQuadraticallyAndSaysSoLineByLine)
   EXPECT_LT(residuals[k], residuals[k - 1] * residuals[k - 1]);
 }
 
+struct Reached
+{
+  Eigen::VectorXd solution;
+  double pressure = 0; ///< MPa
+  StepEffort effort;
+  int n_in_contact = 0;
+};
+
+Reached reach(const dataset::Anatomy &anatomy, double displacement, const LoadStepperOptions &options)
+{
+  PelvisModel model = build_pelvis_model(anatomy, 1);
+  LoadStepper stepper(model, options);
+  Reached reached;
+  stepper.start(anatomy.reference.target_displacement);
+  reached.effort = stepper.advance_to(displacement);
+  reached.solution = stepper.solution();
+  reached.pressure = reached.solution[model.pressure_unknown];
+  reached.n_in_contact = model.contact->n_in_contact(reached.solution);
+  return reached;
+}
+
+// Chords and an early search of the pairs in contact are shorter ways to the same equilibrium. Pairs may differ where
+// gaps do by less than ContactOptions::settled_gap: hence no closer.
+TEST(PelvisNewton, ShorterWaysLeadToTheSameEquilibrium)
+{
+  const dataset::Anatomy anatomy = anatomy::build_anatomy(anatomy::case_text("quick"), "quick");
+  const double displacement = 0.8 * anatomy.reference.target_displacement;
+  LoadStepperOptions long_way;
+  long_way.chord_increment = 0;
+  long_way.search_increment = 0;
+  const Reached by_long = reach(anatomy, displacement, long_way), by_short = reach(anatomy, displacement, {});
+  std::cout << by_long.effort.factorisations << " and " << by_short.effort.factorisations << " factorisations, "
+            << by_short.n_in_contact << " points in contact, solutions "
+            << (by_long.solution - by_short.solution).cwiseAbs().maxCoeff() << " apart\n";
+  ASSERT_GT(by_short.n_in_contact, 0);
+  EXPECT_EQ(by_long.effort.factorisations, by_long.effort.newton_iterations);
+  EXPECT_LT(by_short.effort.factorisations, by_long.effort.factorisations);
+  EXPECT_LT(by_short.effort.factorisations, by_short.effort.newton_iterations);
+  EXPECT_LT((by_long.solution - by_short.solution).cwiseAbs().maxCoeff(), 2e-3);
+  EXPECT_NEAR(by_short.pressure, by_long.pressure, 1e-3 * by_long.pressure);
+}
+
 // The row of the pressure counts MPa as N, so 5e-7 MPa not yet applied is within the tolerance of 1e-6 N: taken for
 // equilibrium, it kept the path at rest for ever.
 TEST(PelvisNewton, LeavesRestFromAPressureBelowTheToleranceOfTheResidual)
