@@ -21,7 +21,7 @@ using dataset::organ_names;
 using dataset::Points;
 using json = nlohmann::ordered_json;
 
-constexpr double quantum = 0.01;       ///< mm
+constexpr double quantum = 0.02;       ///< mm
 constexpr double bar_quantum = 0.05;   ///< mm: bars are drawn, not measured
 constexpr double error_quantum = 0.04; ///< mm: 10.2 mm at most
 
