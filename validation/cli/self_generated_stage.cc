@@ -38,7 +38,7 @@ void make_self_generated_truth(ResultDirectory &directory, const std::string &dr
   {
     ResultDirectory driving(folder, "driver of " + directory.path().string(), ResultDirectory::Missing::create);
     make_anatomy(driving, driver, text);
-    make_truth(driving, jobs);
+    make_truth(driving, jobs, "", (directory.path() / ".." / driver).lexically_normal());
     make_observations(driving);
     make_estimate(driving, {.condition = "full", .perturbation = {}, .samples = 0}, jobs);
   }

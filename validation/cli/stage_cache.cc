@@ -134,6 +134,41 @@ bool ResultDirectory::is_up_to_date(const Stage &stage, const std::string &key)
   return true;
 }
 
+std::optional<StageRecord> ResultDirectory::take_from(const std::filesystem::path &other, const Stage &stage,
+                                                      const std::string &key)
+{
+  if (!std::filesystem::is_directory(other))
+    return std::nullopt;
+  try
+  {
+    ResultDirectory source(other, "", Missing::refuse, Access::shared);
+    if (!source.is_up_to_date(stage, key))
+      return std::nullopt;
+    StageRecord record = source.manifest_.stages.at(stage.name);
+    record.outputs.clear();
+    for (const std::string &output : stage.outputs)
+    {
+      const std::filesystem::path unfinished = path_ / (output + ".tmp");
+      std::filesystem::copy_file(other / output, unfinished, std::filesystem::copy_options::overwrite_existing);
+      std::filesystem::rename(unfinished, path_ / output);
+      record.outputs[output] = known_digests_[output] = source.digest(output);
+    }
+    return record;
+  }
+  catch (const InputError &)
+  {
+    return std::nullopt; // in use, or damaged: the stage is run here
+  }
+}
+
+void ResultDirectory::keep(const std::string &stage, const StageRecord &record)
+{
+  for (const auto &[output, digest] : record.outputs)
+    manifest_.forget(output);
+  manifest_.stages[stage] = record;
+  save_manifest(manifest_, path_);
+}
+
 Notes ResultDirectory::run(const Stage &stage)
 {
   StageRecord record;
@@ -144,6 +179,13 @@ Notes ResultDirectory::run(const Stage &stage)
     fmt::print("{}: up to date\n", stage.name);
     return manifest_.stages.at(stage.name).notes;
   }
+  for (const std::filesystem::path &other : stage.elsewhere)
+    if (const std::optional<StageRecord> taken = take_from(other, stage, record.key))
+    {
+      keep(stage.name, *taken);
+      fmt::print("{}: taken from {}\n", stage.name, other.string());
+      return taken->notes;
+    }
   Progress progress(stage.name);
   record.notes = stage.work(progress);
   std::vector<std::string> outputs = stage.outputs;
@@ -157,10 +199,7 @@ Notes ResultDirectory::run(const Stage &stage)
   record.seconds = progress.seconds();
   record.command_line = command_line_;
   record.revision = revision();
-  for (const std::string &output : outputs)
-    manifest_.forget(output);
-  manifest_.stages[stage.name] = record;
-  save_manifest(manifest_, path_);
+  keep(stage.name, record);
   progress.finish("done");
   return record.notes;
 }

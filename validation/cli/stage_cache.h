@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct Stage
   std::vector<std::string> outputs;               ///< file names in the directory
   std::vector<std::string> optional_outputs = {}; ///< recorded when the work made them
   std::function<Notes(Progress &)> work;          ///< makes every output, or throws
+  /// Other result directories in which the same stage may have made the same outputs: copied instead of made again.
+  std::vector<std::filesystem::path> elsewhere = {};
 };
 
 /// A result directory in use by this process, for as long as the object lives.
@@ -63,6 +66,10 @@ public:
 private:
   void require_current(const std::string &file);
   bool is_up_to_date(const Stage &stage, const std::string &key);
+  /// The stage's outputs from another directory, with their record; nothing when that has none with this key, or
+  /// another process writes there.
+  std::optional<StageRecord> take_from(const std::filesystem::path &other, const Stage &stage, const std::string &key);
+  void keep(const std::string &stage, const StageRecord &record);
   const std::string &digest(const std::string &file);
 
   std::filesystem::path path_;

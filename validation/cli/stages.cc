@@ -94,7 +94,8 @@ void make_anatomy(ResultDirectory &directory, const std::string &case_name, cons
                  }});
 }
 
-void make_truth(ResultDirectory &directory, int jobs, const std::string &log_file)
+void make_truth(ResultDirectory &directory, int jobs, const std::string &log_file,
+                const std::filesystem::path &elsewhere)
 {
   // An anatomy without its case file is not one that a mesh study can know.
   std::optional<dataset::DiscretisationError> error_bar;
@@ -127,7 +128,8 @@ void make_truth(ResultDirectory &directory, int jobs, const std::string &log_fil
                    truth.discretisation_error = error_bar;
                    save(truth, directory.path() / "truth.h5");
                    return {};
-                 }});
+                 },
+                 .elsewhere = {elsewhere}});
 }
 
 void make_observations(ResultDirectory &directory)

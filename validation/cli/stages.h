@@ -13,8 +13,10 @@ namespace pelvireg::cli
 {
 /// case.toml, anatomy.h5. `text` is the case file's content.
 void make_anatomy(ResultDirectory &directory, const std::string &case_name, const std::string &text);
-/// truth.h5. Every step and iteration of the solver becomes a line of `log_file`, when it is not empty.
-void make_truth(ResultDirectory &directory, int jobs, const std::string &log_file = {});
+/// truth.h5. Every step and iteration of the solver becomes a line of `log_file`, when it is not empty. `elsewhere`: a
+/// result directory that may hold it already.
+void make_truth(ResultDirectory &directory, int jobs, const std::string &log_file = {},
+                const std::filesystem::path &elsewhere = {});
 /// observations.h5
 void make_observations(ResultDirectory &directory);
 /// Everything in the directory, judged.

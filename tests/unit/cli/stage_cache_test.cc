@@ -168,6 +168,62 @@ TEST_F(Chain, GivesAFileToTheStageThatWroteItLast)
   EXPECT_EQ(n_runs_, 4);
 }
 
+TEST_F(Chain, TakesFromElsewhereWhatTheSameStageMadeOfTheSameInputs)
+{
+  const std::filesystem::path other = path_ / "other";
+  std::filesystem::create_directory(other);
+  dataset::write_text_file(other / "source.txt", "one");
+  Stage there = first();
+  there.work = [&](Progress &) -> Notes
+  {
+    dataset::write_text_file(other / "middle.txt", "made elsewhere");
+    return {{"figure", 7}};
+  };
+  ResultDirectory(other, "pelvireg test", ResultDirectory::Missing::refuse).run(there);
+  const auto from_there = [&](const std::string &options)
+  {
+    Stage here = first(options);
+    here.elsewhere = {path_ / "missing", other};
+    return here;
+  };
+
+  EXPECT_EQ(run(from_there("")).at("figure"), 7);
+  EXPECT_EQ(n_runs_, 0);
+  EXPECT_EQ(content_of(path_ / "middle.txt"), "made elsewhere");
+  run(second()); // it counts as made here
+  EXPECT_EQ(content_of(path_ / "last.txt"), "made elsewhere+");
+
+  run(from_there("other options"));
+  EXPECT_EQ(content_of(path_ / "middle.txt"), "one+");
+  write("source.txt", "two");
+  run(from_there(""));
+  EXPECT_EQ(content_of(path_ / "middle.txt"), "two+");
+
+  write("source.txt", "one");
+  dataset::write_text_file(other / "middle.txt", "changed by hand");
+  run(from_there(""));
+  EXPECT_EQ(content_of(path_ / "middle.txt"), "one+");
+}
+
+TEST_F(Chain, DoesNotTakeFromWhereAnotherProcessWrites)
+{
+  const std::filesystem::path other = path_ / "other";
+  std::filesystem::create_directory(other);
+  dataset::write_text_file(other / "source.txt", "one");
+  Stage there = first();
+  there.work = [&](Progress &) -> Notes
+  {
+    dataset::write_text_file(other / "middle.txt", "made elsewhere");
+    return {};
+  };
+  ResultDirectory writing(other, "pelvireg test", ResultDirectory::Missing::refuse);
+  writing.run(there);
+  Stage here = first();
+  here.elsewhere = {other};
+  run(here);
+  EXPECT_EQ(content_of(path_ / "middle.txt"), "one+");
+}
+
 TEST_F(Chain, ListsTheDigestOfEveryFileInTheManifest)
 {
   run(first());
