@@ -199,8 +199,7 @@ ConstraintRows rows_at(const Model &model, const Options &options, const Registr
   std::vector<AttachedNode> attached;
   for (const Attachment &attachment : model.attachments)
     for (const AttachedNode &node : bind_attachment(attachment, model.bodies, trees[attachment.body_b], 0))
-      add_attachment_rows(
-          node, attachment_gap(node, registration.positions(node.body_a), registration.positions(node.body_b)), rows);
+      add_attachment_rows(node, registration.positions(node.body_a), registration.positions(node.body_b), rows);
   for (const OutlineObservation &outline : observation.outlines)
   {
     const Points &positions = registration.positions(outline.body);
