@@ -21,7 +21,7 @@ namespace
 using pelvireg::reference_fe::DeckText;
 
 constexpr double radius = 100, half_length = 100, thickness = 1, quarter_of_largest_load = 3000;
-/// Of the spring that pushes the load's point, N a unit length; the wall's own stiffness there is 10 to 100.
+/// Of the spring that pushes the load's point; the wall's own stiffness there is 20 to 240.
 constexpr double spring_stiffness = 1000;
 
 /// Nodes on a lattice of half cells: i from the top (x = 0) round to the side (z = 0), j from the middle (y = 0) to the
