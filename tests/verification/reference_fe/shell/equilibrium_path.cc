@@ -209,27 +209,44 @@ private:
     Eigen::VectorXd a = previous_, b = current_;
     for (int round = 0; round < 20; ++round)
     {
-      const double before = row_at(a)[column], after = row_at(b)[column];
-      const Eigen::VectorXd guess = a + (value - before) / (after - before) * (b - a);
-      Eigen::VectorXd x = guess;
+      const double before = row_at(a)[column], after = row_at(b)[column], part = (value - before) / (after - before);
+      Eigen::VectorXd x = a + part * (b - a);
       hold(x, value, column);
-      const int n_iterations = solve(x, options_.max_iterations);
-      if (n_iterations >= 0 && (x - guess).norm() <= (b - a).norm())
-      {
-        log("  row", x, n_iterations);
+      const int n_iterations = solve_near(x, (b - a).norm());
+      log(n_iterations < 0 ? "  no row" : "  row", x, n_iterations);
+      if (n_iterations >= 0)
         return row_at(x);
-      }
-      const double part = std::clamp((value - before) / (after - before), 0.1, 0.9);
-      Eigen::VectorXd between = a + part * (b - a);
-      hold_along_path(a, between);
-      if (solve(between, options_.max_iterations) < 0)
+      if (!go_between(a, b, std::clamp(part, 0.1, 0.9), x))
         break;
-      const double reached = row_at(between)[column];
+      const double reached = row_at(x)[column];
       if (std::abs(reached - value) <= 1e-6 * comparison_.largest_entry(column))
-        return row_at(between);
-      ((value - before) * (value - reached) <= 0 ? b : a) = between;
+        return row_at(x);
+      ((value - before) * (value - reached) <= 0 ? b : a) = x;
     }
     fail(column == 0 ? "no equilibrium at this load" : "no equilibrium at a row's displacement", value);
+  }
+
+  /// As solve(), and fails when x moves by more than `radius`.
+  int solve_near(Eigen::VectorXd &x, double radius)
+  {
+    const Eigen::VectorXd guess = x;
+    const int n_iterations = solve(x, options_.max_iterations);
+    return (x - guess).norm() <= radius ? n_iterations : -1;
+  }
+
+  /// Finds x on the path from a to b, `part` of the way; like every step of the path halved where it fails.
+  bool go_between(const Eigen::VectorXd &a, const Eigen::VectorXd &b, double part, Eigen::VectorXd &x)
+  {
+    for (; part > 0.01; part *= 0.5)
+    {
+      x = a + part * (b - a);
+      hold_along_path(a, x);
+      const int n_iterations = solve_near(x, (b - a).norm());
+      log(n_iterations < 0 ? "  no point between" : "  between", x, n_iterations);
+      if (n_iterations >= 0)
+        return true;
+    }
+    return false;
   }
 
   void release_controls()

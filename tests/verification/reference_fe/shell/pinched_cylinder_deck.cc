@@ -1,7 +1,10 @@
 // The pinched cylinder of Sze, Liu, Lo (2004, case 3.6) for CalculiX or Abaqus: an unrelated program on the same
 // eighth that shell_study follows.
 // usage: pinched_cylinder_deck N1 N2 ELEMENT FACTOR [FACTOR ...] > FILE.inp
-// N1 x N2 20-node bricks of type ELEMENT (C3D20R or C3D20), one through the wall; FACTORs of P_max, a step each.
+//        pinched_cylinder_deck N1 N2 ELEMENT --displacement W [W ...] > FILE.inp
+// N1 x N2 20-node bricks of type ELEMENT (C3D20R or C3D20), one through the wall. A step each: FACTORs of P_max, whose
+// ends are printed; or inward displacements W of a node that a stiff spring ties to the load's point, with every
+// increment printed: RF of that node (minus a quarter of the load) and U of the observed points.
 #include "reference_fe/decks/deck_text.h"
 
 #include <fmt/format.h>
@@ -18,6 +21,8 @@ namespace
 using pelvireg::reference_fe::DeckText;
 
 constexpr double radius = 100, half_length = 100, thickness = 1, quarter_of_largest_load = 3000;
+/// Of the spring that pushes the load's point; the wall's own stiffness there is 20 to 240.
+constexpr double spring_stiffness = 1000;
 
 /// Nodes on a lattice of half cells: i from the top (x = 0) round to the side (z = 0), j from the middle (y = 0) to the
 /// diaphragm, k = 0, 1, 2 from the inner surface to the outer. A brick's nodes have at most one odd index.
@@ -31,6 +36,8 @@ struct Lattice
   int id(int i, int j, int k) const { return 1 + i + (i_end() + 1) * (j + (j_end() + 1) * k); }
   /// A node of its own whose z is the mean through the wall under the load.
   int loaded() const { return 1 + id(i_end(), j_end(), 2); }
+  /// The other end of the spring on that node.
+  int driver() const { return loaded() + 1; }
 
   template <typename Function> void for_each(const Function &function) const
   {
@@ -96,41 +103,67 @@ void write_supports(const Lattice &lattice, DeckText &deck)
                 lattice.id(i, lattice.j_end(), 2), direction);
 }
 
+/// What the steps prescribe, one value a step.
+struct Loading
+{
+  bool by_displacement = false;
+  std::vector<double> values; ///< factors of the largest load, or inward displacements of the driver
+};
+
+/// CalculiX gives no reaction at a node of an *EQUATION; at the spring's other end it does.
+void write_spring(const Lattice &lattice, DeckText &deck)
+{
+  deck.line("*NODE, NSET=DRIVER\n{},0.,0.,{}", lattice.driver(), radius);
+  deck.line("*ELEMENT, TYPE=SPRING2, ELSET=SPRING\n{},{},{}", lattice.n1 * lattice.n2 + 1, lattice.driver(),
+            lattice.loaded());
+  deck.line("*SPRING, ELSET=SPRING\n3,3\n{}.", spring_stiffness);
+  deck.line("*BOUNDARY\n{},1,2", lattice.driver());
+}
+
 /// The force acts on the mean through the wall.
-void write_steps(const Lattice &lattice, const std::vector<double> &factors, DeckText &deck)
+void write_steps(const Lattice &lattice, const Loading &loading, DeckText &deck)
 {
   deck.line("*EQUATION\n4\n{},3,1.,{},3,4.,{},3,1.,{},3,-6.", lattice.id(0, 0, 0), lattice.id(0, 0, 1),
             lattice.id(0, 0, 2), lattice.loaded());
   deck.line("*NSET, NSET=OBSERVED\n{},{}", lattice.id(0, 0, 1), lattice.id(lattice.i_end(), 0, 1));
-  for (const double factor : factors)
+  if (loading.by_displacement)
+    write_spring(lattice, deck);
+  for (const double value : loading.values)
   {
     deck.line("*STEP, NLGEOM, INC=2000\n*STATIC\n0.25,1.,1.E-5,1.");
     deck.line("*CONTROLS, PARAMETERS=FIELD\n1.E-5,1.E-4");
-    deck.line("*CLOAD\n{},3,{:.12g}", lattice.loaded(), -quarter_of_largest_load * factor);
-    deck.line("*NODE PRINT, NSET=OBSERVED, FREQUENCY=2000\nU\n*END STEP");
+    if (loading.by_displacement)
+      deck.line("*BOUNDARY\n{},3,3,{:.12g}\n*NODE PRINT, NSET=DRIVER\nRF\n*NODE PRINT, NSET=OBSERVED\nU",
+                lattice.driver(), -value);
+    else
+      deck.line("*CLOAD\n{},3,{:.12g}\n*NODE PRINT, NSET=OBSERVED, FREQUENCY=2000\nU", lattice.loaded(),
+                -quarter_of_largest_load * value);
+    deck.line("*END STEP");
   }
 }
 } // namespace
 
 int main(int argc, char **argv)
 {
-  const bool is_complete = argc >= 5;
+  Loading loading;
+  loading.by_displacement = argc > 4 && std::string(argv[4]) == "--displacement";
+  for (int i = loading.by_displacement ? 5 : 4; i < argc; ++i)
+    loading.values.push_back(std::atof(argv[i]));
+  const bool is_complete = !loading.values.empty();
   const std::string element = is_complete ? argv[3] : "";
   const Lattice lattice{is_complete ? std::atoi(argv[1]) : 0, is_complete ? std::atoi(argv[2]) : 0};
   if (lattice.n1 < 1 || lattice.n2 < 1 || (element != "C3D20R" && element != "C3D20"))
   {
     fmt::print(stderr, "usage: pinched_cylinder_deck N1 N2 C3D20R|C3D20 FACTOR [FACTOR ...] > FILE.inp\n"
+                       "       pinched_cylinder_deck N1 N2 C3D20R|C3D20 --displacement W [W ...] > FILE.inp\n"
                        "example: pinched_cylinder_deck 40 40 C3D20R 0.05 0.075 0.1 0.125 > cylinder.inp\n");
     return 2;
   }
-  std::vector<double> factors;
-  for (int i = 4; i < argc; ++i)
-    factors.push_back(std::atof(argv[i]));
   DeckText deck;
   write_nodes(lattice, deck);
   write_bricks(lattice, element, deck);
   write_supports(lattice, deck);
-  write_steps(lattice, factors, deck);
+  write_steps(lattice, loading, deck);
   std::fputs(deck.take().c_str(), stdout);
   return 0;
 }
