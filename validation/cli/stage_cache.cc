@@ -1,5 +1,6 @@
 #include "validation/cli/stage_cache.h"
 
+#include "synthetic/dataset/atomic_file.h"
 #include "synthetic/dataset/error.h"
 #include "validation/cli/sha256.h"
 #include "validation/cli/version.h"
@@ -148,9 +149,10 @@ std::optional<StageRecord> ResultDirectory::take_from(const std::filesystem::pat
     record.outputs.clear();
     for (const std::string &output : stage.outputs)
     {
-      const std::filesystem::path unfinished = path_ / (output + ".tmp");
-      std::filesystem::copy_file(other / output, unfinished, std::filesystem::copy_options::overwrite_existing);
-      std::filesystem::rename(unfinished, path_ / output);
+      dataset::AtomicFile copy(path_ / output);
+      std::filesystem::copy_file(other / output, copy.temporary_path(),
+                                 std::filesystem::copy_options::overwrite_existing);
+      copy.publish();
       record.outputs[output] = known_digests_[output] = source.digest(output);
     }
     return record;

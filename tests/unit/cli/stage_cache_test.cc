@@ -51,6 +51,21 @@ protected:
   Stage first(const std::string &options = "") { return stage("first", "source.txt", "middle.txt", options); }
   Stage second() { return stage("second", "middle.txt", "last.txt"); }
 
+  std::filesystem::path elsewhere() const { return path_ / "elsewhere"; }
+  /// The first stage, for the directory elsewhere(), which is made with the same source.
+  Stage first_made_elsewhere()
+  {
+    std::filesystem::create_directory(elsewhere());
+    dataset::write_text_file(elsewhere() / "source.txt", "one");
+    Stage made = first();
+    made.work = [this](Progress &) -> Notes
+    {
+      dataset::write_text_file(elsewhere() / "middle.txt", "made elsewhere");
+      return {{"figure", 7}};
+    };
+    return made;
+  }
+
   /// Each call opens the directory anew, as a new process would.
   Notes run(const Stage &stage)
   {
@@ -170,20 +185,12 @@ TEST_F(Chain, GivesAFileToTheStageThatWroteItLast)
 
 TEST_F(Chain, TakesFromElsewhereWhatTheSameStageMadeOfTheSameInputs)
 {
-  const std::filesystem::path other = path_ / "other";
-  std::filesystem::create_directory(other);
-  dataset::write_text_file(other / "source.txt", "one");
-  Stage there = first();
-  there.work = [&](Progress &) -> Notes
-  {
-    dataset::write_text_file(other / "middle.txt", "made elsewhere");
-    return {{"figure", 7}};
-  };
-  ResultDirectory(other, "pelvireg test", ResultDirectory::Missing::refuse).run(there);
+  const Stage there = first_made_elsewhere();
+  ResultDirectory(elsewhere(), "pelvireg test", ResultDirectory::Missing::refuse).run(there);
   const auto from_there = [&](const std::string &options)
   {
     Stage here = first(options);
-    here.elsewhere = {path_ / "missing", other};
+    here.elsewhere = {path_ / "missing", elsewhere()};
     return here;
   };
 
@@ -200,26 +207,18 @@ TEST_F(Chain, TakesFromElsewhereWhatTheSameStageMadeOfTheSameInputs)
   EXPECT_EQ(content_of(path_ / "middle.txt"), "two+");
 
   write("source.txt", "one");
-  dataset::write_text_file(other / "middle.txt", "changed by hand");
+  dataset::write_text_file(elsewhere() / "middle.txt", "changed by hand");
   run(from_there(""));
   EXPECT_EQ(content_of(path_ / "middle.txt"), "one+");
 }
 
 TEST_F(Chain, DoesNotTakeFromWhereAnotherProcessWrites)
 {
-  const std::filesystem::path other = path_ / "other";
-  std::filesystem::create_directory(other);
-  dataset::write_text_file(other / "source.txt", "one");
-  Stage there = first();
-  there.work = [&](Progress &) -> Notes
-  {
-    dataset::write_text_file(other / "middle.txt", "made elsewhere");
-    return {};
-  };
-  ResultDirectory writing(other, "pelvireg test", ResultDirectory::Missing::refuse);
+  const Stage there = first_made_elsewhere();
+  ResultDirectory writing(elsewhere(), "pelvireg test", ResultDirectory::Missing::refuse);
   writing.run(there);
   Stage here = first();
-  here.elsewhere = {other};
+  here.elsewhere = {elsewhere()};
   run(here);
   EXPECT_EQ(content_of(path_ / "middle.txt"), "one+");
 }
